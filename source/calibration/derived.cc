@@ -25,16 +25,14 @@ namespace SlipStep
 
 
 
-    const Quantity &quantity_of(const std::string &path,
-                                const Derived     &derived,
-                                const Parameters  &parameters)
+    void check_number(const std::string &path,
+                      const Derived     &derived,
+                      const Parameters  &parameters)
     {
       parameters.check_path(path, parameters.origin(key));
-      const auto *quantity =
-        dynamic_cast<const Quantity *>(parameters.entry(path).pattern.get());
-      if (quantity == nullptr)
+      if (dynamic_cast<const Quantity *>(
+            parameters.entry(path).pattern.get()) == nullptr)
         reject(derived, parameters, path + " is not a number");
-      return *quantity;
     }
 
 
@@ -55,7 +53,7 @@ namespace SlipStep
             reject(derived, parameters, "a } is missing");
           const std::string path = dealii::Utilities::trim(
             derived.formula.substr(open + 1, close - open - 1));
-          quantity_of(path, derived, parameters);
+          check_number(path, derived, parameters);
           text += '(' + short_text(parameters.number(path), 17) + ')';
           at = close + 1;
         }
@@ -104,7 +102,7 @@ namespace SlipStep
         derived.formula = dealii::Utilities::trim(text.substr(sign + 1));
         derived.is_tie  = derived.name.find('/') != std::string::npos;
         if (derived.is_tie)
-          quantity_of(derived.name, derived, parameters);
+          check_number(derived.name, derived, parameters);
         for (const Derived &other : result)
           if (other.name == derived.name)
             reject(derived, parameters, "this name is given twice");
@@ -129,14 +127,9 @@ namespace SlipStep
   {
     for (const Derived &tie : derived)
       if (tie.is_tie)
-        {
-          FitParameter parameter;
-          parameter.path = tie.name;
-          parameter.dimension =
-            quantity_of(tie.name, tie, parameters).dimension;
-          parameters.set(tie.name,
-                         parameter.text(evaluate(tie, parameters), 17),
-                         parameters.origin(key));
-        }
+        parameters.set(
+          tie.name,
+          quantity_text(parameters, tie.name, evaluate(tie, parameters), 17),
+          parameters.origin(key));
   }
 } // namespace SlipStep

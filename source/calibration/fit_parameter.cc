@@ -333,6 +333,22 @@ namespace SlipStep
 
 
 
+  std::string quantity_text(const Parameters  &parameters,
+                            const std::string &path,
+                            const double       value,
+                            const int          n_digits)
+  {
+    FitParameter parameter;
+    if (const auto *quantity =
+          dynamic_cast<const Quantity *>(parameters.entry(path).pattern.get()))
+      parameter.dimension = quantity->dimension;
+    else
+      parameter.dimension = Dimension::stiffness;
+    return parameter.text(value, n_digits);
+  }
+
+
+
   std::string label_of(const FitParameter &parameter)
   {
     return parameter.name.empty() ? parameter.path : parameter.name;

@@ -220,12 +220,13 @@ namespace SlipStep
 
 
 
-  std::vector<std::pair<double, double>> ProfileSide::points() const
+  void ProfileSide::add_to(ProfileInterval &interval) const
   {
-    std::vector<std::pair<double, double>> result;
+    (sign < 0 ? interval.lower : interval.upper)                 = end;
+    (sign < 0 ? interval.is_lower_open : interval.is_upper_open) = is_open;
     for (const auto &[distance, point] : fitted)
       if (distance > 0.)
-        result.emplace_back(start + sign * distance, point.misfit);
-    return result;
+        interval.profile.emplace_back(start + sign * distance, point.misfit);
+    std::sort(interval.profile.begin(), interval.profile.end());
   }
 } // namespace SlipStep

@@ -341,13 +341,6 @@ namespace SlipStep
 
 
 
-  void Simulator::leave_out(const std::vector<bool> &left_out)
-  {
-    is_left_out = left_out;
-  }
-
-
-
   // With what correct() found.
   void Simulator::weigh(Replay::Curve     curve,
                         const std::size_t number,

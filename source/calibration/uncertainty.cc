@@ -676,14 +676,10 @@ namespace SlipStep
           sign,
           deadline);
         side.follow(first_distance);
-        (sign < 0 ? result.lower : result.upper)                 = side.end;
-        (sign < 0 ? result.is_lower_open : result.is_upper_open) = side.is_open;
-        for (const auto &point : side.points())
-          result.profile.push_back(point);
+        side.add_to(result);
         if (!side.better.empty())
           result.better = side.better;
       }
-    std::sort(result.profile.begin(), result.profile.end());
     return result;
   }
 } // namespace SlipStep

@@ -24,8 +24,7 @@ namespace SlipStep
   bool is_evident(const CandidateView &seen, const double level)
   {
     return seen.candidate.only_beside.empty() && !seen.ways.empty() &&
-           seen.score.value > 0. && seen.p <= level &&
-           seen.minimum_detectable <= largest_hidden_change;
+           seen.p <= level && seen.minimum_detectable <= largest_hidden_change;
   }
 
 

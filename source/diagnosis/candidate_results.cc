@@ -48,8 +48,8 @@ namespace SlipStep
           result.why      = "time was over before it was looked at";
           result.standing = Standing::not_tried;
         }
-      else if ((!seen.failure.empty() && seen.ways.empty()) ||
-               (!seen.failure.empty() && seen.p <= level) ||
+      else if ((!seen.failure.empty() &&
+                (seen.ways.empty() || seen.p <= level)) ||
                holds(judgement.found.first_fits.lost, result.name))
         {
           result.why      = seen.failure.empty() ?
@@ -140,8 +140,7 @@ namespace SlipStep
       add_found(judgement.found, parameters, workspace.level, results[c]);
       if (workspace.was_late)
         leave_undecided(judgement.found, results[c]);
-      if (rank(results[c]) == Standing::not_testable &&
-          results[c].standing != Standing::in_the_model &&
+      if (results[c].standing == Standing::not_testable &&
           !seen.candidate.formulas.empty())
         {
           Model own = base.copy();

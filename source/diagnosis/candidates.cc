@@ -375,22 +375,6 @@ namespace SlipStep
 
 
 
-  std::string quantity_text(const Parameters  &parameters,
-                            const std::string &path,
-                            const double       value,
-                            const int          n_digits)
-  {
-    FitParameter parameter;
-    if (const auto *quantity =
-          dynamic_cast<const Quantity *>(parameters.entry(path).pattern.get()))
-      parameter.dimension = quantity->dimension;
-    else
-      parameter.dimension = Dimension::stiffness;
-    return parameter.text(value, n_digits);
-  }
-
-
-
   namespace
   {
     void add_part(const Part &part, const Values &values, CaseToFit &result)

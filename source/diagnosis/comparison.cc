@@ -334,9 +334,7 @@ namespace SlipStep
         return true;
       }
 
-      bool derivatives(const Eigen::VectorXd &x,
-                       const Eigen::VectorXd &,
-                       Eigen::MatrixXd &result)
+      bool derivatives(const Eigen::VectorXd &x, Eigen::MatrixXd &result)
       {
         constexpr double      step = 1e-4;
         std::vector<double>   scaled(x.data(), x.data() + x.size());
@@ -411,9 +409,8 @@ namespace SlipStep
                        return problem.residuals(x, residuals);
                      },
                      [&](const Eigen::VectorXd &x,
-                         const Eigen::VectorXd &residuals,
                          Eigen::MatrixXd       &derivatives) {
-                       return problem.derivatives(x, residuals, derivatives);
+                       return problem.derivatives(x, derivatives);
                      },
                      deadline,
                      end.goal},
@@ -501,12 +498,9 @@ namespace SlipStep
           noise = std::sqrt(noise);
       return result;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     // Of all numbers those along one axis of a test.
     std::vector<double> along(const ComparedTest    &test,
                               const std::size_t      axis,

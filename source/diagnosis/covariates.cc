@@ -19,7 +19,7 @@ namespace SlipStep
     {
       Covariates result;
       result.phase.resize(n);
-      result.since_rest = result.axis = Eigen::VectorXd::Zero(n);
+      result.axis = Eigen::VectorXd::Zero(n);
       for (const Covariate &covariate : all_covariates())
         result.*covariate.values = Eigen::VectorXd::Zero(n);
       return result;
@@ -126,7 +126,7 @@ namespace SlipStep
 
     void RowReader::follow_history()
     {
-      double       path = 0., since = 0., rest = 0., since_rest = 0., heat = 0.;
+      double       path = 0., since = 0., rest = 0., heat = 0.;
       bool         has_moved = false;
       const double forget    = 0.1 * (rows.time.back() - rows.time.front());
       for (std::size_t i = 0; i < n; ++i)
@@ -138,12 +138,10 @@ namespace SlipStep
             i > 0 && !rests && !rested &&
             std::cos(result.angle(i) - result.angle(i - 1)) < 0.5;
           if (rests && !rested)
-            rest = since_rest = 0.;
+            rest = 0.;
           if ((!rests && rested) || turns || i == 0)
             {
               since = 0.;
-              if (has_moved || i > 0)
-                since_rest = 0.;
               stroke_begin.push_back(i);
               stroke_start.push_back(turns     ? Phase::reversal :
                                      has_moved ? Phase::restart :
@@ -151,7 +149,6 @@ namespace SlipStep
             }
           path += result.speed(i) * dt;
           since += result.speed(i) * dt;
-          since_rest += dt;
           if (rests && has_moved)
             rest += dt;
           has_moved = has_moved || !rests;
@@ -161,7 +158,6 @@ namespace SlipStep
           result.path(i)        = path;
           result.since_start(i) = since;
           result.rest(i)        = rest;
-          result.since_rest(i)  = since_rest;
           result.heat(i)        = heat;
         }
     }
@@ -312,12 +308,9 @@ namespace SlipStep
                                    friction(test.begin + n_bins + i)));
       return result;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     bool is_motion(const Covariates &rows, const Eigen::Index row)
     {
       return rows.speed(row) > 0. && rows.phase[row] != Phase::hold;
@@ -407,8 +400,7 @@ namespace SlipStep
               const std::size_t  row = test.middle_row(i);
               for (const Covariate &covariate : all_covariates())
                 (result.*covariate.values)(k) = (rows.*covariate.values)(row);
-              result.since_rest(k) = rows.since_rest(row);
-              result.phase[k]      = rows.phase[row];
+              result.phase[k] = rows.phase[row];
               if (!tests[t].rows.displacement_y.empty())
                 across(k) = tests[t].rows.displacement_y[row];
               result.axis(k) = s;
@@ -453,7 +445,7 @@ namespace SlipStep
             std::abs(std::sin(angle - angles[angles.size() / 2])));
         std::sort(turns.begin(), turns.end());
         result.widest_angle =
-          std::asin(std::min(1., turns[turns.size() - 1 - turns.size() / 50]));
+          std::asin(turns[turns.size() - 1 - turns.size() / 50]);
       }
     // Of both axes together: one of them may idle.
     for (const ComparedTest &test : comparison.tests)
@@ -493,9 +485,6 @@ namespace SlipStep
               std::max(result.longest_path, covariates.path(k));
             result.longest_rest =
               std::max(result.longest_rest, covariates.rest(k));
-            if (covariates.phase[k] != Phase::hold)
-              result.longest_slide =
-                std::max(result.longest_slide, covariates.since_rest(k));
           }
       }
     std::set<double> orders;

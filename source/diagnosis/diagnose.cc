@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/confounding.h>
-#include <slipstep/diagnosis/correction.h>
+#include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/diagnose.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
 #include <slipstep/diagnosis/findings.h>
-#include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/outlying_rows.h>
-#include <slipstep/diagnosis/intervals.h>
 #include <slipstep/diagnosis/next_test.h>
 #include <slipstep/diagnosis/localisation.h>
 #include <slipstep/diagnosis/refits.h>
@@ -275,7 +273,7 @@ namespace SlipStep
       stage("describing the gap that has no name");
       ingested.workspace->range.track_wave =
         clear_track_wave(*ingested.workspace, ingested.base).wavelength;
-      const std::optional<CorrectedModel> correction = find_correction(
+      const std::optional<FreeFactor> correction = find_correction(
         *ingested.workspace, ingested.base, judgement, result.where);
       if (!correction.has_value())
         return;

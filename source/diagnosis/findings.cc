@@ -3,7 +3,6 @@
 #include <slipstep/diagnosis/findings.h>
 #include <slipstep/diagnosis/hum_of_tests.h>
 #include <slipstep/diagnosis/left_out.h>
-#include <slipstep/diagnosis/intervals.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/experiment/stability.h>
 #include <slipstep/measured_data/test_rows.h>

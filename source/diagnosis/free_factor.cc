@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/free_factor.h>
-#include <slipstep/diagnosis/score_test.h>
-#include <slipstep/diagnosis/search.h>
 #include <slipstep/diagnosis/rules.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
@@ -334,12 +332,8 @@ namespace SlipStep
                                  result.model,
                                  workspace.null_draws,
                                  directions(result.model, best));
-          if (pass == 0)
-            {
-              result.p = scores.together().p;
-              if (result.p > workspace.level)
-                return {};
-            }
+          if (pass == 0 && scores.together().p > workspace.level)
+            return {};
           Eigen::VectorXd corrections =
             best + small_factor * scores.mixture(smoothness);
           // What is the same everywhere belongs to the coefficients.
@@ -398,5 +392,71 @@ namespace SlipStep
           best = tried;
       }
     return best;
+  }
+
+
+
+  namespace
+  {
+    std::optional<FreeFactor> correct_along(const Workspace   &workspace,
+                                            const Model       &base,
+                                            const Judgement   &judgement,
+                                            const std::string &name)
+    {
+      // What expression knows is the temperature of effect heating.
+      if (name == "heat")
+        return {};
+      std::optional<FreeFactor> factor =
+        add_free_factor(workspace, base, covariate_called(name).in_expression);
+      if (factor.has_value() && judgement.gap.excess > 0.)
+        factor->share =
+          1. - test_gap(workspace, factor->model, judgement.view).excess /
+                 judgement.gap.excess;
+      return factor;
+    }
+
+
+
+    // What names have to show, and no worse in per cent of friction either.
+    bool is_an_improvement(const Workspace &workspace,
+                           const Model     &base,
+                           const Model     &corrected)
+    {
+      if (!evidence_for(workspace, base, corrected).is_enough())
+        return false;
+      const Comparison &comparison   = workspace.comparison;
+      const auto        left_out_rms = [&](const Model &model) {
+        Eigen::VectorXd differences;
+        left_out(workspace, model, &differences);
+        return relative_rms(comparison, differences);
+      };
+      return relative_rms(comparison, corrected) <
+               relative_rms(comparison, base) &&
+             (comparison.conditions.size() < 2 ||
+              left_out_rms(corrected) < left_out_rms(base));
+    }
+  } // namespace
+
+
+
+  std::optional<FreeFactor>
+  find_correction(const Workspace                 &workspace,
+                  const Model                     &base,
+                  const Judgement                 &judgement,
+                  const std::vector<Localisation> &where)
+  {
+    constexpr double least_share = 0.5;
+
+    for (const Localisation &place : where)
+      {
+        const std::optional<FreeFactor> correction =
+          correct_along(workspace, base, judgement, place.covariate);
+        if (correction.has_value())
+          return correction->share >= least_share &&
+                     is_an_improvement(workspace, base, correction->model) ?
+                   correction :
+                   std::nullopt;
+      }
+    return {};
   }
 } // namespace SlipStep

@@ -240,9 +240,8 @@ namespace SlipStep
       workspace.comparison.deadline = workspace.deadline;
       workspace.comparison.set_noise(stated, workspace.comparison.measured);
       rounding_factors.setOnes(workspace.comparison.n_rows());
-      result.base = make_coarse_model(start, {}, {}, tests);
-      for (std::size_t i = 0; i < result.base.scaled.size(); ++i)
-        result.base.scaled[i] = result.base.campaign->scaled_start()[i];
+      result.base        = make_coarse_model(start, {}, {}, tests);
+      result.base.scaled = result.base.campaign->scaled_start();
       result.base.simulator->plan(result.base.scaled);
       const Eigen::VectorXd difference =
         workspace.comparison.difference(result.base);

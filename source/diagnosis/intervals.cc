@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/profile_side.h>
-#include <slipstep/diagnosis/intervals.h>
+#include <slipstep/diagnosis/findings.h>
 #include <slipstep/diagnosis/refits.h>
 
 #include <Eigen/Dense>
@@ -85,12 +85,8 @@ namespace SlipStep
           ProfileSide side(
             [&](const std::vector<double> &from) {
               model.scaled = from;
-              const bool is_fitted =
-                workspace.comparison.fit(model, 0.005, {}, held);
-              return ProfileSide::Fitted{
-                is_fitted ? model.objective :
-                            std::numeric_limits<double>::infinity(),
-                model.scaled};
+              workspace.comparison.fit(model, 0.005, {}, held);
+              return ProfileSide::Fitted{model.objective, model.scaled};
             },
             {optimum.objective, optimum.scaled},
             slopes_of(optimum, i),
@@ -100,13 +96,10 @@ namespace SlipStep
             workspace.comparison.deadline);
           side.follow(std::max(1e-4, deviation * std::sqrt(threshold)));
           side.look_at({0.3, 0.6, 0.85});
-          (sign < 0 ? result.lower : result.upper) = side.end;
-          (sign < 0 ? result.is_lower_open : result.is_upper_open) =
-            side.is_open;
-          for (const auto &[scaled, rise] : side.points())
-            result.profile.emplace_back(scaled, rise * threshold);
+          side.add_to(result);
         }
-      std::sort(result.profile.begin(), result.profile.end());
+      for (auto &point : result.profile)
+        point.second *= threshold;
       const FitParameter &parameter = optimum.campaign->fitted[i];
       return result.converted([&](const double scaled) {
         return parameter.in_unit(parameter.from_scaled(scaled));

@@ -115,7 +115,7 @@ namespace SlipStep
       bool renew()
       {
         is_exact = true;
-        return problem.derivatives(best.x, best.residuals, best.derivatives);
+        return problem.derivatives(best.x, best.derivatives);
       }
 
       // One per residual is noise; of sums far above that, tenths decide

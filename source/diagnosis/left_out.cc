@@ -163,10 +163,10 @@ namespace SlipStep
           for (Eigen::Index i = 0; i < n; ++i)
             if (!newton.is_untold[i])
               result.scaled[i] = model.scaled[i];
-          result.simulator->leave_out(left_out);
+          result.simulator->is_left_out = left_out;
           comparison.fit(result, 1., left_out, newton.is_untold);
         }
-      result.simulator->leave_out(others);
+      result.simulator->is_left_out = others;
       return result;
     }
   } // namespace

@@ -144,19 +144,16 @@ namespace SlipStep
       for (const std::string &effect : start.list("Friction/Effects"))
         for (const std::string &path : start.paths("Friction/" + effect + "/"))
           paths.push_back(path);
-      const auto is_not_held = [&](const std::string &path) {
-        const auto has_it = [&](const auto &list, const auto name_of) {
-          return any_of(list,
-                        [&](const auto &one) { return name_of(one) == path; });
-        };
+      remove_erase_if(paths, [&](const std::string &path) {
         return dynamic_cast<const Quantity *>(
                  start.entry(path).pattern.get()) == nullptr ||
-               has_it(campaign.fitted,
-                      [](const FitParameter &one) { return one.path; }) ||
-               has_it(campaign.derived,
-                      [](const Derived &one) { return one.name; });
-      };
-      remove_erase_if(paths, is_not_held);
+               any_of(campaign.fitted,
+                      [&](const FitParameter &one) {
+                        return one.path == path;
+                      }) ||
+               any_of(campaign.derived,
+                      [&](const Derived &one) { return one.name == path; });
+      });
       return paths;
     }
 

@@ -62,36 +62,20 @@ namespace SlipStep
 
   namespace
   {
-    std::size_t n_rows(const std::vector<Series> &series)
-    {
-      std::size_t n = 0;
-      for (const Series &one : series)
-        n += one.time.size();
-      return n;
-    }
-
-
-
-    std::size_t n_waves(const std::vector<Series> &series)
-    {
-      std::size_t n = 0;
-      for (const Series &one : series)
-        n += one.hum.size();
-      return n;
-    }
-
-
-
     // What a unit of gain, offset, slope and hum adds to the rows, times their
     // standard deviations: the gain in common, the others of each axis.
     RowMatrix common_columns(const std::vector<Series> &series,
                              const double               level,
                              const Noise               &noise)
     {
-      RowMatrix columns =
-        RowMatrix::Zero(n_rows(series),
-                        1 + 2 * series.size() + n_waves(series));
+      Eigen::Index n_rows = 0, n_waves = 0;
+      for (const Series &one : series)
+        {
+          n_rows += one.time.size();
+          n_waves += one.hum.size();
+        }
       Eigen::Index row = 0, wave = 1 + 2 * series.size();
+      RowMatrix    columns = RowMatrix::Zero(n_rows, wave + n_waves);
       for (std::size_t s = 0; s < series.size(); ++s)
         {
           const double own_level = series[s].level(level, noise);

@@ -36,11 +36,9 @@ namespace SlipStep
           }
         whitener.apply(columns);
         // Constant friction is the first wave once more.
+        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
         basis =
-          Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(columns).householderQ() *
-          Eigen::MatrixXd::Identity(
-            n_rows,
-            Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(columns).rank());
+          qr.householderQ() * Eigen::MatrixXd::Identity(n_rows, qr.rank());
       }
 
       double squares(const Eigen::VectorXd &values) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/gap.h>
 #include <slipstep/diagnosis/outlying_rows.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -86,12 +87,9 @@ namespace SlipStep
       !(rows = farthest_rows(comparison, spikes, distance, threshold)).empty())
       {
         weaken(rows);
-        spikes.erase(std::remove_if(spikes.begin(),
-                                    spikes.end(),
-                                    [&](const Eigen::Index row) {
-                                      return result.count(row) > 0;
-                                    }),
-                     spikes.end());
+        remove_erase_if(spikes, [&](const Eigen::Index row) {
+          return result.count(row) > 0;
+        });
       }
     std::vector<Eigen::Index> others;
     for (Eigen::Index row = 0; row < distance.size(); ++row)

@@ -244,9 +244,9 @@ namespace SlipStep
     scores.resize(directions.size());
     for (std::size_t i = 0; i < directions.size(); ++i)
       {
-        scores[i].own_length  = set.whitened.col(i).norm();
         scores[i].free_length = columns.col(i).norm();
-        if (scores[i].free_length > least_free_share * scores[i].own_length)
+        if (scores[i].free_length >
+            least_free_share * set.whitened.col(i).norm())
           {
             columns.col(i) /= scores[i].free_length;
             null_parts.row(i) /= scores[i].free_length;

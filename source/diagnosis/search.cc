@@ -41,20 +41,12 @@ namespace SlipStep
       /// The same without proof of what the first model has.
       SearchResult go_on();
 
-      bool has_others() const
-      {
-        return beginnings.size() > 1;
-      }
-
-      /// What the first name was added to.
-      const Model &start() const
-      {
-        return *started_from;
-      }
-
-      std::optional<OtherBeginning> other_beginning(const Model &found) const;
+      /// From another beginning, if there is one that could lead elsewhere.
+      SearchResult begin_again(const SearchResult &found) const;
 
     private:
+      std::optional<OtherBeginning> other_beginning(const Model &found) const;
+
       void extend(SearchResult &proven);
 
       bool add();
@@ -85,7 +77,7 @@ namespace SlipStep
       bool try_rivals(const Model &less, const Part part, const double cost);
 
       Workspace           &workspace;
-      std::optional<Model> started_from;
+      std::optional<Model> started_from; ///< what the first name was added to
       std::vector<Model>   beginnings; ///< what was added first, and the others
       SearchResult         result;
     };
@@ -133,14 +125,16 @@ namespace SlipStep
     {
       std::optional<OtherBeginning> best;
       const Model                  &chosen = beginnings.front();
-      const double                  gain = start().objective - chosen.objective;
+      const double gain = started_from->objective - chosen.objective;
       for (const Model &other : beginnings)
         {
           if (other.has(chosen.parts.front().name) ||
               holds_names(found, other) ||
-              start().objective - other.objective < promise_of_rivals(gain))
+              started_from->objective - other.objective <
+                promise_of_rivals(gain))
             continue;
-          const double lead = left_out_lead(workspace, start(), other, chosen);
+          const double lead =
+            left_out_lead(workspace, *started_from, other, chosen);
           if (!best.has_value() || lead > best->lead)
             best = OtherBeginning{other.copy(), lead};
         }
@@ -483,6 +477,46 @@ namespace SlipStep
               names.erase(names.begin());
           }
     }
+
+
+
+    // From another beginning, if that could lead elsewhere: names may be wrong
+    // together, what was found may be none, or leave a part of what could be
+    // explained.
+    SearchResult Searcher::begin_again(const SearchResult &found) const
+    {
+      constexpr double much = 0.05; // of what is explained
+
+      if (beginnings.size() < 2 || workspace.is_late())
+        return found;
+
+      const GapTest remainder =
+        test_gap(workspace,
+                 found.model,
+                 score_candidates(workspace, found.model));
+      const bool remains = remainder.p <= workspace.level;
+      const bool is_none = is_at_bound(found.model);
+      if (!is_none && !remains && effect_names(found.model.parts).size() < 2)
+        return found;
+      const auto   other     = other_beginning(found.model);
+      const double explained = started_from->objective - found.model.objective;
+      if (!other.has_value() ||
+          !(other->lead > sure_lead || is_none ||
+            (remains &&
+             remainder.excess > std::max(sure_excess, much * explained))))
+        return found;
+      workspace.tell("beginning with " + other->model.parts.back().name);
+      SearchResult others = Searcher(workspace, other->model).go_on();
+      // Nothing has to be added to it.
+      if (others.evidence.empty())
+        others = Searcher(workspace, other->model).run();
+      if (others.evidence.empty() || workspace.is_late())
+        return found;
+      return better_of(
+        found,
+        others,
+        left_out_lead(workspace, *started_from, others.model, found.model));
+    }
   } // namespace
 
 
@@ -509,60 +543,15 @@ namespace SlipStep
 
 
 
-  namespace
-  {
-    // From another beginning, if that could lead elsewhere: names may be wrong
-    // together, what was found may be none, or leave a part of what could be
-    // explained.
-    SearchResult begin_again(Workspace          &workspace,
-                             const Searcher     &searcher,
-                             const SearchResult &found)
-    {
-      constexpr double much = 0.05; // of what is explained
-
-      const GapTest remainder =
-        test_gap(workspace,
-                 found.model,
-                 score_candidates(workspace, found.model));
-      const bool remains = remainder.p <= workspace.level;
-      const bool is_none = is_at_bound(found.model);
-      if (!is_none && !remains && effect_names(found.model.parts).size() < 2)
-        return found;
-      const auto   other = searcher.other_beginning(found.model);
-      const double explained =
-        searcher.start().objective - found.model.objective;
-      if (!other.has_value() ||
-          !(other->lead > sure_lead || is_none ||
-            (remains &&
-             remainder.excess > std::max(sure_excess, much * explained))))
-        return found;
-      workspace.tell("beginning with " + other->model.parts.back().name);
-      SearchResult others = Searcher(workspace, other->model).go_on();
-      // Nothing has to be added to it.
-      if (others.evidence.empty())
-        others = Searcher(workspace, other->model).run();
-      if (others.evidence.empty() || workspace.is_late())
-        return found;
-      return better_of(
-        found,
-        others,
-        left_out_lead(workspace, searcher.start(), others.model, found.model));
-    }
-  } // namespace
-
-
-
   // Names follow the tests most closely one by one: a wrong one may do so by
   // what a second one would explain.
   SearchResult search(Workspace &workspace, const Model &first)
   {
     Searcher           searcher(workspace, first);
     const SearchResult found = searcher.run();
-    if (!searcher.has_others() || workspace.is_late())
-      return found;
     try
       {
-        return begin_again(workspace, searcher, found);
+        return searcher.begin_again(found);
       }
     catch (const RunError &)
       {

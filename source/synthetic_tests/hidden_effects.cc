@@ -4,28 +4,34 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
 #include <map>
 
 namespace SlipStep
 {
   namespace Planting
   {
+    std::size_t place_among(const std::vector<std::string> &names,
+                            const std::string              &what,
+                            const std::string              &wanted)
+    {
+      const auto found = std::find(names.begin(), names.end(), wanted);
+      if (found == names.end())
+        throw InputError(what + " \"" + wanted + "\": allowed is one of: " +
+                         boost::algorithm::join(names, ", ") +
+                         did_you_mean(wanted, names));
+      return found - names.begin();
+    }
+
+
+
     std::string to_string(const Formula formula)
     {
-      switch (formula)
-        {
-          case Formula::catalogue:
-            return "catalogue";
-          case Formula::alternative:
-            return "alternative";
-          case Formula::outside:
-            return "outside";
-          case Formula::third:
-            return "third";
-          case Formula::joint:
-            return "joint";
-        }
-      return "";
+      static const char *const names[] = {
+        "catalogue", "alternative", "outside", "third", "joint"};
+      return names[static_cast<unsigned int>(formula)];
     }
 
 
@@ -53,13 +59,12 @@ namespace SlipStep
             return kind;
           names.push_back(kind.name);
         }
-      std::string known;
-      for (const std::string &one : names)
-        known += (known.empty() ? "" : ", ") + one;
       const std::string hint = did_you_mean(name, names);
-      throw InputError("there is no effect \"" + name + "\" to be hidden (" +
-                       to_string(formula) + ")" +
-                       (hint.empty() ? "; known are: " + known : hint));
+      throw InputError(
+        "there is no effect \"" + name + "\" to be hidden (" +
+        to_string(formula) + ")" +
+        (hint.empty() ? "; known are: " + boost::algorithm::join(names, ", ") :
+                        hint));
     }
   } // namespace Planting
 } // namespace SlipStep

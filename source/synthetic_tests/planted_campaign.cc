@@ -6,7 +6,6 @@
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
-#include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
@@ -23,16 +22,16 @@ namespace SlipStep
   {
     namespace
     {
-      const std::vector<std::pair<CampaignClass, std::string>> class_names = {
-        {CampaignClass::none, "none"},
-        {CampaignClass::one, "one"},
-        {CampaignClass::two, "two"},
-        {CampaignClass::other_formula, "other_formula"},
-        {CampaignClass::outside, "outside"},
-        {CampaignClass::ablated, "ablated"},
-        {CampaignClass::narrow, "narrow"},
-        {CampaignClass::third_formula, "third_formula"},
-        {CampaignClass::joint, "joint"}};
+      // In the order of CampaignClass.
+      const std::vector<std::string> class_names = {"none",
+                                                    "one",
+                                                    "two",
+                                                    "other_formula",
+                                                    "outside",
+                                                    "ablated",
+                                                    "narrow",
+                                                    "third_formula",
+                                                    "joint"};
 
       /// What random numbers are for.
       enum class Stream : std::uint32_t
@@ -58,33 +57,22 @@ namespace SlipStep
 
     std::string to_string(const CampaignClass campaign_class)
     {
-      for (const auto &[one, name] : class_names)
-        if (one == campaign_class)
-          return name;
-      return "";
+      return class_names[static_cast<std::size_t>(campaign_class)];
     }
 
 
 
     std::vector<std::string> campaign_classes()
     {
-      std::vector<std::string> names;
-      for (const auto &one : class_names)
-        names.push_back(one.second);
-      return names;
+      return class_names;
     }
 
 
 
     CampaignClass campaign_class(const std::string &wanted)
     {
-      for (const auto &[one, name] : class_names)
-        if (name == wanted)
-          return one;
-      const std::vector<std::string> names = campaign_classes();
-      throw InputError("class \"" + wanted + "\": allowed is one of: " +
-                       boost::algorithm::join(names, ", ") +
-                       did_you_mean(wanted, names));
+      return static_cast<CampaignClass>(
+        place_among(class_names, "class", wanted));
     }
 
 

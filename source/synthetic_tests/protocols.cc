@@ -2,7 +2,6 @@
 #include <slipstep/synthetic_tests/hidden_effects.h>
 #include <slipstep/synthetic_tests/protocols.h>
 
-#include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/text.h>
 
 #include <boost/math/constants/constants.hpp>
@@ -203,18 +202,12 @@ namespace SlipStep
           }
         return script;
       }
-    } // namespace
 
 
 
-    namespace
-    {
       std::vector<Protocol> first(const unsigned int    n,
                                   std::vector<Protocol> protocols)
       {
-        if (n > protocols.size())
-          throw InputError("a campaign has at most " +
-                           std::to_string(protocols.size()) + " conditions");
         protocols.resize(n);
         return protocols;
       }

@@ -2,14 +2,9 @@
 #include <slipstep/synthetic_tests/hidden_effects.h>
 #include <slipstep/synthetic_tests/record_noise.h>
 
-#include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/nearest_name.h>
-
-#include <boost/algorithm/string/join.hpp>
 #include <boost/math/constants/constants.hpp>
 
 #include <cmath>
-#include <utility>
 
 namespace SlipStep
 {
@@ -17,48 +12,29 @@ namespace SlipStep
   {
     namespace
     {
-      const std::vector<std::pair<NoiseKind, std::string>> kind_names = {
-        {NoiseKind::normal, "normal"},
-        {NoiseKind::heavy_tails, "heavy_tails"},
-        {NoiseKind::two_drifts, "two_drifts"},
-        {NoiseKind::correlated_rows, "correlated_rows"},
-        {NoiseKind::drift_in_seconds, "drift_in_seconds"},
-        {NoiseKind::rounded_motion, "rounded_motion"},
-        {NoiseKind::noisy_sensors, "noisy_sensors"},
-        {NoiseKind::hum, "hum"}};
+      // In the order of NoiseKind.
+      const std::vector<std::string> kind_names = {"normal",
+                                                   "heavy_tails",
+                                                   "two_drifts",
+                                                   "correlated_rows",
+                                                   "drift_in_seconds",
+                                                   "rounded_motion",
+                                                   "noisy_sensors",
+                                                   "hum"};
     } // namespace
 
 
 
     std::string to_string(const NoiseKind kind)
     {
-      for (const auto &[one, name] : kind_names)
-        if (one == kind)
-          return name;
-      return "";
-    }
-
-
-
-    std::vector<std::string> noise_names()
-    {
-      std::vector<std::string> names;
-      for (const auto &one : kind_names)
-        names.push_back(one.second);
-      return names;
+      return kind_names[static_cast<std::size_t>(kind)];
     }
 
 
 
     NoiseKind noise_kind(const std::string &wanted)
     {
-      for (const auto &[kind, name] : kind_names)
-        if (name == wanted)
-          return kind;
-      const std::vector<std::string> names = noise_names();
-      throw InputError("noise \"" + wanted + "\": allowed is one of: " +
-                       boost::algorithm::join(names, ", ") +
-                       did_you_mean(wanted, names));
+      return static_cast<NoiseKind>(place_among(kind_names, "noise", wanted));
     }
 
 

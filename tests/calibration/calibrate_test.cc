@@ -495,13 +495,13 @@ TEST_F(Planted, TestsThatAreLeftOutAreNotSimulated)
   simulator.plan(campaign.scaled_start());
   std::vector<double> all(campaign.n_residuals()), some(all.size(), 7.);
   simulator.residuals(campaign.scaled_start(), all.data());
-  simulator.leave_out({false, true, false});
+  simulator.is_left_out = {false, true, false};
   simulator.residuals(campaign.scaled_start(), some.data());
   std::size_t row = 0;
   for (const CampaignTest &test : campaign.tests)
     for (std::size_t i = 0; i < test.n_residuals(); ++i, ++row)
       EXPECT_EQ(some[row], &test == &campaign.tests[1] ? 0. : all[row]);
-  simulator.leave_out({});
+  simulator.is_left_out = {};
   simulator.residuals(campaign.scaled_start(), some.data());
   EXPECT_EQ(some, all);
 }
@@ -518,8 +518,8 @@ TEST_F(Planted, TestsOfTheSameMotionAreSimulatedOnce)
     Simulator      simulator(campaign);
     simulator.plan(campaign.scaled_start());
     simulator.correct(campaign.scaled_start());
-    simulator.leave_out(left_out);
-    n_steps = simulator.n_steps();
+    simulator.is_left_out = left_out;
+    n_steps               = simulator.n_steps();
     std::vector<double> result(campaign.n_residuals());
     simulator.residuals(campaign.scaled_start(), result.data());
     for (std::size_t i = 0; i < campaign.tests.size() && left_out.empty(); ++i)

@@ -39,7 +39,6 @@ namespace
     range.longest_path     = 40.;
     range.longest_rest     = 1000.;
     range.longest_test     = 2000.;
-    range.longest_slide    = 2000.;
     range.typical_friction = 0.1;
     range.widest_angle     = 1.5;
     range.track_wave       = 2.;
@@ -96,9 +95,9 @@ TEST(Candidates, MakeCasesThatTheLawTakesOfAnyTests)
       range.highest          = range.lowest * some(1., 1e4);
       range.largest_pressure = range.highest * some(1., 10.);
       range.longest_path     = some(1e-5, 1e6);
-      range.longest_slide    = range.longest_path / range.slowest;
       range.longest_rest     = n % 3 == 0 ? 0. : some(1e-2, 1e7);
-      range.longest_test     = range.longest_rest + range.longest_slide;
+      range.longest_test =
+        range.longest_rest + range.longest_path / range.slowest;
       range.typical_friction = some(1e-3, 2.);
       range.widest_angle     = n % 2 == 0 ? 0. : 1.5;
       range.track_wave       = some(1e-3, 1.) * range.longest_path;

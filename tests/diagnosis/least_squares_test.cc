@@ -19,9 +19,7 @@ namespace
               residuals << 10. * (x(1) - x(0) * x(0)), a - x(0);
               return true;
             },
-            [](const Eigen::VectorXd &x,
-               const Eigen::VectorXd &,
-               Eigen::MatrixXd &derivatives) {
+            [](const Eigen::VectorXd &x, Eigen::MatrixXd &derivatives) {
               derivatives.resize(2, 2);
               derivatives << -20. * x(0), 10., -1., 0.;
               return true;
@@ -144,9 +142,7 @@ namespace
                 found = residuals(x);
                 return true;
               },
-              [this](const Eigen::VectorXd &x,
-                     const Eigen::VectorXd &,
-                     Eigen::MatrixXd &found) {
+              [this](const Eigen::VectorXd &x, Eigen::MatrixXd &found) {
                 ++n_derivatives;
                 found = derivatives(x);
                 return true;

@@ -76,6 +76,12 @@ namespace SlipStep
   /// Give parameters the names that tell them apart.
   void name_apart(std::vector<FitParameter> &parameters);
 
+  /// A number in base units as it stands in a case.
+  std::string quantity_text(const Parameters  &parameters,
+                            const std::string &path,
+                            const double       value,
+                            const int          n_digits = 10);
+
   /// How the tables call a parameter.
   std::string label_of(const FitParameter &parameter);
 } // namespace SlipStep

@@ -2,12 +2,13 @@
 #ifndef slipstep_calibration_profile_side_h
 #define slipstep_calibration_profile_side_h
 
+#include <slipstep/calibration/calibration.h>
+
 #include <Eigen/Core>
 
 #include <chrono>
 #include <functional>
 #include <map>
-#include <utility>
 #include <vector>
 
 namespace SlipStep
@@ -67,8 +68,8 @@ namespace SlipStep
     /// @throws OutOfTime
     void look_at(const std::vector<double> &shares);
 
-    /// (scaled, rise over threshold)
-    std::vector<std::pair<double, double>> points() const;
+    /// Give an interval this end and the points, (scaled, rise over threshold).
+    void add_to(ProfileInterval &interval) const;
 
     double end     = 0.; ///< scaled
     bool   is_open = false;

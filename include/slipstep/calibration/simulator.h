@@ -69,9 +69,9 @@ namespace SlipStep
     /// is left is what the cases differ in.
     void subtract(const Parameters &other);
 
-    /// From now on, do not simulate these tests: their residuals are 0.
-    /// @param left_out by test; empty for none of them
-    void leave_out(const std::vector<bool> &left_out);
+    /// By test, those that are not simulated: their residuals are 0. Empty for
+    /// none of them.
+    std::vector<bool> is_left_out;
 
     /// Simulated minus measured friction over noise, all rows of all tests, by
     /// the steps planned.
@@ -125,7 +125,6 @@ namespace SlipStep
     std::vector<std::vector<std::size_t>> tests_of;
     /// To be added to the curves at the rows of each test; empty for none.
     std::vector<Replay::Curve> corrections;
-    std::vector<bool>          is_left_out; ///< by test
     unsigned int               n_done = 0;
     std::vector<double>        shifted; ///< residuals, kept to save its memory
   };

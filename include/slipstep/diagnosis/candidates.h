@@ -73,12 +73,6 @@ namespace SlipStep
   CaseToFit assemble(const Parameters        &start,
                      const std::vector<Part> &parts,
                      const Values            &values);
-
-  /// A number in base units as it stands in a case.
-  std::string quantity_text(const Parameters  &parameters,
-                            const std::string &path,
-                            const double       value,
-                            const int          n_digits = 10);
 } // namespace SlipStep
 
 #endif

@@ -24,8 +24,6 @@ namespace SlipStep
     Eigen::VectorXd since_start;
     /// Duration of the last rest [s], 0 before any.
     Eigen::VectorXd rest;
-    /// Time since that rest ended, or during it since it began [s].
-    Eigen::VectorXd since_rest;
     Eigen::VectorXd angle;      ///< of motion [rad]
     Eigen::VectorXd is_reverse; ///< 1 where motion goes back
     Eigen::VectorXd heat;       ///< recent frictional work [MPa mm]

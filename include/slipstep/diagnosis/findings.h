@@ -20,6 +20,13 @@ namespace SlipStep
                     const std::vector<DiagnosedParameter> &parameters,
                     const Model                           &base);
 
+  /// All fitted parameters of a model: those of added effects with intervals
+  /// by profile likelihood, as far as Comparison::deadline allows, the others
+  /// from the curvature.
+  std::vector<DiagnosedParameter> find_intervals(const Workspace &workspace,
+                                                 const Model     &model,
+                                                 const double     confidence);
+
   void describe_noise(const Workspace &workspace, Diagnosis &diagnosis);
 
   /// @param after the model that the diagnosis came to

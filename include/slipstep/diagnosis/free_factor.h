@@ -2,7 +2,7 @@
 #ifndef slipstep_diagnosis_free_factor_h
 #define slipstep_diagnosis_free_factor_h
 
-#include <slipstep/diagnosis/workspace.h>
+#include <slipstep/diagnosis/verdict.h>
 
 #include <optional>
 #include <string>
@@ -11,12 +11,9 @@ namespace SlipStep
 {
   /// A free factor of friction along one covariate of effect `expression`,
   /// piecewise linear between a few knots, added to a model and fitted.
-  struct FreeFactor
+  struct FreeFactor : Correction
   {
-    std::string covariate, formula; ///< as effect expression has them
-    /// Chance that noise asks for as much.
-    double p = 1.;
-    Model  model; ///< with the factor
+    Model model; ///< with the factor
   };
 
   /// @param covariate of effect expression
@@ -33,6 +30,14 @@ namespace SlipStep
   /// none if no formula does.
   std::optional<FreeFactor> complete_formula(const Workspace &workspace,
                                              const Model     &model);
+
+  /// What has no name, described along the covariate where most of it is.
+  /// @return none if it takes away less than half
+  std::optional<FreeFactor>
+  find_correction(const Workspace                 &workspace,
+                  const Model                     &base,
+                  const Judgement                 &judgement,
+                  const std::vector<Localisation> &where);
 } // namespace SlipStep
 
 #endif

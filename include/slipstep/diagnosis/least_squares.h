@@ -17,11 +17,8 @@ namespace SlipStep
     /// The residuals; false where there are none.
     std::function<bool(const Eigen::VectorXd &x, Eigen::VectorXd &residuals)>
       residuals;
-    /// Their derivatives at x, where they are @p residuals; false where there
-    /// are none.
-    std::function<bool(const Eigen::VectorXd &x,
-                       const Eigen::VectorXd &residuals,
-                       Eigen::MatrixXd       &derivatives)>
+    /// Their derivatives; false where there are none.
+    std::function<bool(const Eigen::VectorXd &x, Eigen::MatrixXd &derivatives)>
       derivatives;
     /// The best that is known then has to do.
     std::chrono::steady_clock::time_point deadline =

@@ -104,11 +104,6 @@ namespace SlipStep
       return log_det;
     }
 
-    std::size_t n_rows() const
-    {
-      return steps.size();
-    }
-
   private:
     /// One row of the Kalman filter, whose states are the drift and, of
     /// variance 1, what rows have in common with their neighbours.

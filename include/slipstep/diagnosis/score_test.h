@@ -69,9 +69,8 @@ namespace SlipStep
     double deviation = 1.;
     /// Of the change, by least squares.
     double strength = 0.;
-    /// Length of the whitened change, before and after what the model's own
-    /// parameters could do is taken off.
-    double own_length  = 0.;
+    /// Length of the whitened change without what the model's own parameters
+    /// could do.
     double free_length = 0.;
   };
 

@@ -25,7 +25,6 @@ namespace SlipStep
     double longest_path     = 0.; ///< [mm]
     double longest_rest     = 0.; ///< [s]
     double longest_test     = 0.; ///< [s]
-    double longest_slide    = 0.; ///< without a rest [s]
     double typical_friction = 0.;
     double widest_angle     = 0.;    ///< between lines of motion, to pi/2 [rad]
     bool   has_two_axes     = false; ///< friction across the motion is measured

@@ -28,6 +28,13 @@ namespace SlipStep
       static constexpr double long_rest          = 300.; ///< [s]
     };
 
+    /// Where a name stands.
+    /// @param what it is, for the message
+    /// @throws InputError naming the nearest if it is not there
+    std::size_t place_among(const std::vector<std::string> &names,
+                            const std::string              &what,
+                            const std::string              &wanted);
+
     inline double uniform(Random &random, const double least, const double most)
     {
       return std::uniform_real_distribution<double>(least, most)(random);

@@ -30,9 +30,6 @@ namespace SlipStep
       hum
     };
 
-    /// What all kinds are called.
-    std::vector<std::string> noise_names();
-
     /// "heavy_tails"
     std::string to_string(const NoiseKind kind);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/diagnosis/correction.h>
+#include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/localisation.h>
 #include <slipstep/diagnosis/look_alike.h>
 
@@ -306,7 +306,7 @@ TEST_F(CampaignFolder, WavesWithoutANameAreDescribed)
   Workspace &workspace = *ingested.workspace;
   workspace.range.track_wave =
     clear_track_wave(workspace, judgement.base).wavelength;
-  const std::optional<CorrectedModel> correction =
+  const std::optional<FreeFactor> correction =
     find_correction(workspace,
                     judgement.base,
                     judgement,

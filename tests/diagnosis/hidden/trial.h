@@ -6,7 +6,6 @@
 #include <slipstep/diagnosis/findings.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
-#include <slipstep/diagnosis/intervals.h>
 #include <slipstep/diagnosis/next_test.h>
 #include <slipstep/diagnosis/verdict.h>
 #include <slipstep/diagnosis/ingest.h>
