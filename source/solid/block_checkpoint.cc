@@ -241,9 +241,7 @@ namespace SlipStep
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         missing.emplace(cell->id(), cell);
-    std::map<CellId, unsigned int> contact_face_of;
-    for (unsigned int i = 0; i < contact.cell_faces().size(); ++i)
-      contact_face_of.emplace(contact.cell_faces()[i].cell->id(), i);
+    const auto contact_face_of = contact.places_of_cells();
 
     const unsigned int          n_q     = contact.quadrature().size();
     const std::vector<Vector *> vectors = fields_of_state();

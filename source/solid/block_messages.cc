@@ -287,12 +287,9 @@ namespace SlipStep
         if (parameters.subdivisions[parameters.tangential_axis(i)] *
                 parameters.refinement.initial_cells_per_subdivision() <
               3 &&
-            std::any_of(programme.segments().begin(),
-                        programme.segments().end(),
-                        [&](const Segment &segment) {
-                          return segment.end.velocity[i] != 0. ||
-                                 segment.push[i] != 0.;
-                        }))
+            any_of(programme.segments(), [&](const Segment &segment) {
+              return segment.end.velocity[i] != 0. || segment.push[i] != 0.;
+            }))
           return true;
       return false;
     }
@@ -420,9 +417,8 @@ namespace SlipStep
   {
     const auto &segments = programme.segments();
     if (load_cases[programme_pressure].force.l2_norm() > 0. ||
-        std::none_of(segments.begin(), segments.end(), [](const Segment &now) {
-          return now.end.pressure > 0.;
-        }))
+        none_of(segments,
+                [](const Segment &now) { return now.end.pressure > 0.; }))
       return "";
     return "the programme presses, but no face has 'pressure programme': only "
            "the other loads of section Block/Faces press the block on the "

@@ -10,8 +10,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/dofs/dof_tools.h>
-
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_tools.h>
 
@@ -119,31 +117,27 @@ namespace SlipStep
       using State                   = ContactState;
       const GapAndStrength &surface = parameters.surface;
       const auto [first, second]    = face_axes(parameters);
+      // The value of a member, as a function.
+      const auto of = [](double State::*const member) {
+        return [member](const State &s, const double) { return s.*member; };
+      };
       std::vector<FaceField> fields = {
-        {"pressure_MPa",
-         [](const State &s, const double) { return s.normal_traction; }},
+        {"pressure_MPa", of(&State::normal_traction)},
         {"traction_" + first + "_MPa",
          [](const State &s, const double) { return s.traction[0]; }},
         {"traction_" + second + "_MPa",
          [](const State &s, const double) { return s.traction[1]; }},
-        {"slip_mm", [](const State &s, const double) { return s.slip_path; }},
-        {"r",
-         [](const State &s, const double) { return s.loading_ratio; },
-         true},
-        {"r_s",
-         [](const State &s, const double) { return s.normal_ratio; },
-         true},
-        {"mu", [](const State &s, const double) { return s.coefficient; }},
-        {"dissipated_energy_Nmm_per_mm2",
-         [](const State &s, const double) { return s.dissipation; }}};
+        {"slip_mm", of(&State::slip_path)},
+        {"r", of(&State::loading_ratio), true},
+        {"r_s", of(&State::normal_ratio), true},
+        {"mu", of(&State::coefficient)},
+        {"dissipated_energy_Nmm_per_mm2", of(&State::dissipation)}};
       for (const ContactMemory &memory : law.memories())
         fields.push_back({memory.name, [memory](const State &s, const double) {
                             return s[memory];
                           }});
       if (surface.has_map_of_strength())
-        fields.push_back({"strength_factor", [](const State &s, const double) {
-                            return s.strength_factor;
-                          }});
+        fields.push_back({"strength_factor", of(&State::strength_factor)});
       if (surface.is_curved())
         fields.push_back({"gap_mm", [](const State &, const double distance) {
                             return std::max(0., distance);

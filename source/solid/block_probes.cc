@@ -38,17 +38,6 @@ namespace SlipStep
 
 
   template <int dim>
-  BlockProbes<dim>::BlockProbes(
-    const BlockParameters                 &parameters,
-    const Programme                       &programme,
-    const std::vector<QuantityOfInterest> &quantities)
-    : probes(probes_among(quantities))
-    , on_contact_face(parameters, programme, quantities)
-  {}
-
-
-
-  template <int dim>
   std::vector<double>
   BlockProbes<dim>::values(const Block<dim> &block,
                            const MPI_Comm   &communicator) const

@@ -32,8 +32,7 @@ namespace SlipStep
         subdivisions[d] = parameters.subdivisions[d];
       }
     const auto is_even = [](const unsigned int n) { return n % 2 == 0; };
-    for (; std::all_of(subdivisions.begin(), subdivisions.end(), is_even);
-         ++least_level)
+    for (; all_of(subdivisions, is_even); ++least_level)
       for (unsigned int &n : subdivisions)
         n /= 2;
     GridGenerator::subdivided_hyper_rectangle(

@@ -64,11 +64,11 @@ namespace SlipStep
       }
     if (solver_in_use != SolverType::direct &&
         parameters.solver != SolverType::automatic)
-      failures += "; 'set Solver = automatic' in section Block goes on with "
-                  "another solver where one fails";
-    if (solver_in_use != SolverType::direct &&
-        parameters.solver != SolverType::automatic)
-      note_failure_of_solver();
+      {
+        failures += "; 'set Solver = automatic' in section Block goes on with "
+                    "another solver where one fails";
+        note_failure_of_solver();
+      }
     // The tangent may be to blame: the next one begins anew.
     begin_with_first_solver();
     throw RunError(failures);

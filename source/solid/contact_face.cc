@@ -484,6 +484,17 @@ namespace SlipStep
 
 
 
+  template <int dim>
+  std::map<CellId, unsigned int> ContactFace<dim>::places_of_cells() const
+  {
+    std::map<CellId, unsigned int> places;
+    for (unsigned int i = 0; i < faces.size(); ++i)
+      places.emplace(faces[i].cell->id(), i);
+    return places;
+  }
+
+
+
   // @sect3{Forces and sums}
 
   template <int dim>

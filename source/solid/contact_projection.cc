@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/contact_projection.h>
 
+#include <slipstep/utilities/lists.h>
+
 #include <deal.II/base/polynomial.h>
 
 #include <algorithm>
@@ -277,9 +279,7 @@ namespace SlipStep
   void
   ContactProjection<dim>::limit_tractions(std::vector<Fields> &fields) const
   {
-    if (std::all_of(fields.begin(), fields.end(), [&](const Fields &f) {
-          return is_admissible(f, 0.);
-        }))
+    if (all_of(fields, [&](const Fields &f) { return is_admissible(f, 0.); }))
       return;
 
     const Fields mean      = mean_of(fields, weights);
@@ -291,7 +291,7 @@ namespace SlipStep
 
     // Allowed states are a convex set, to which the mean belongs.
     const double factor = largest_factor([&](const double factor) {
-      return std::all_of(fields.begin(), fields.end(), [&](const Fields &f) {
+      return all_of(fields, [&](const Fields &f) {
         return is_admissible(scaled_by(factor, f),
                              least_share * mean[normal_traction]);
       });
@@ -318,7 +318,7 @@ namespace SlipStep
       return values;
     };
     const auto fits = [&](const double factor) {
-      return std::all_of(fields.begin(), fields.end(), [&](const Fields &f) {
+      return all_of(fields, [&](const Fields &f) {
         const Fields values = scaled_by(factor, f);
         ContactState state;
         std::copy(values.begin() + first_memory,

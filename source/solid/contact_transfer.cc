@@ -6,7 +6,6 @@
 #include <boost/serialization/vector.hpp>
 
 #include <array>
-#include <memory>
 
 namespace SlipStep
 {
@@ -23,49 +22,6 @@ namespace SlipStep
   // what ContactProjection finds: a projection that keeps the integrals of
   // traction, pressure, strength, slip and dissipated energy, limited where a
   // polynomial would leave what is admissible.
-  //
-  // While the mesh changes, cells are known by level and index; the list of
-  // contact faces is found from these.
-
-  template <int dim>
-  ContactTransfer<dim>::Directory::Directory(const ContactFace<dim> &contact)
-  {
-    const auto &faces = contact.cell_faces();
-    for (unsigned int i = 0; i < faces.size(); ++i)
-      {
-        const unsigned int level = faces[i].cell->level();
-        const unsigned int index = faces[i].cell->index();
-        if (of_level.size() <= level)
-          of_level.resize(level + 1);
-        if (of_level[level].size() <= index)
-          of_level[level].resize(index + 1, numbers::invalid_unsigned_int);
-        of_level[level][index] = i;
-      }
-  }
-
-
-
-  template <int dim>
-  unsigned int ContactTransfer<dim>::Directory::find(const Cell &cell) const
-  {
-    const unsigned int level = cell->level(), index = cell->index();
-    return level < of_level.size() && index < of_level[level].size() ?
-             of_level[level][index] :
-             numbers::invalid_unsigned_int;
-  }
-
-
-
-  template <int dim>
-  ContactTransfer<dim>::ContactTransfer(Triangulation         &triangulation,
-                                        const BlockParameters &parameters,
-                                        const FrictionLaw     &law)
-    : triangulation(triangulation)
-    , parameters(parameters)
-    , projection(parameters.degree, law)
-  {}
-
-
 
   template <int dim>
   std::array<typename ContactTransfer<dim>::Cell,
@@ -97,7 +53,7 @@ namespace SlipStep
     const auto states_of = [&](const Cell &of_cell) {
       States states;
       for (const auto &point :
-           contact.cell_faces()[directory.find(of_cell)].points)
+           contact.cell_faces()[directory.at(of_cell->id())].points)
         states.push_back(point.point.committed());
       return states;
     };
@@ -124,13 +80,13 @@ namespace SlipStep
       return;
     if (status != Triangulation::CELL_REFINE)
       {
-        contact.set_states(directory.find(cell), states);
+        contact.set_states(directory.at(cell->id()), states);
         return;
       }
     const auto of_children = projection.refine(states);
     const auto children    = children_on_face(cell);
     for (unsigned int i = 0; i < children.size(); ++i)
-      contact.set_states(directory.find(children[i]), of_children[i]);
+      contact.set_states(directory.at(children[i]->id()), of_children[i]);
   }
 
 
@@ -138,10 +94,10 @@ namespace SlipStep
   template <int dim>
   void ContactTransfer<dim>::attach(const ContactFace<dim> &contact)
   {
-    const auto directory = std::make_shared<Directory>(contact);
-    handle               = triangulation.register_data_attach(
-      [this, &contact, directory](const Cell &cell, const Status status) {
-        return pack(contact, *directory, cell, status);
+    handle = triangulation.register_data_attach(
+      [this, &contact, directory = contact.places_of_cells()](
+        const Cell &cell, const Status status) {
+        return pack(contact, directory, cell, status);
       },
       /*returns_variable_size_data=*/true);
   }
@@ -151,7 +107,7 @@ namespace SlipStep
   template <int dim>
   void ContactTransfer<dim>::unpack(ContactFace<dim> &contact)
   {
-    const Directory directory(contact);
+    const Directory directory = contact.places_of_cells();
     triangulation.notify_ready_to_unpack(
       handle,
       [&](const Cell                                         &cell,

@@ -10,16 +10,6 @@ namespace SlipStep
 {
   using dealii::Tensor;
 
-  Drive::Drive(const Machine   &machine,
-               const Programme &programme,
-               const double     area)
-    : machine(machine)
-    , programme(programme)
-    , area(area)
-  {}
-
-
-
   void Drive::begin_step(const double time, const bool is_first_of_segment)
   {
     if (is_first_of_segment)

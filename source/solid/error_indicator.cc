@@ -238,13 +238,6 @@ namespace SlipStep
 
 
   template <int dim>
-  ErrorIndicator<dim>::ErrorIndicator(const BlockParameters &parameters)
-    : parameters(parameters)
-  {}
-
-
-
-  template <int dim>
   std::vector<double>
   ErrorIndicator<dim>::squared_errors(const DoFHandler<dim>  &dof_handler,
                                       const Vector           &displacement,

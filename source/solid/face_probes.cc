@@ -41,14 +41,8 @@ namespace SlipStep
     Interval extent(const typename ContactFace<dim>::CellFace &cell_face,
                     const unsigned int                         axis)
     {
-      const auto &face   = cell_face.cell->face(cell_face.face);
-      Interval    result = {face->vertex(0)[axis], face->vertex(0)[axis]};
-      for (unsigned int v = 1; v < face->n_vertices(); ++v)
-        {
-          result.lower = std::min(result.lower, face->vertex(v)[axis]);
-          result.upper = std::max(result.upper, face->vertex(v)[axis]);
-        }
-      return result;
+      const auto box = cell_face.cell->face(cell_face.face)->bounding_box();
+      return {box.lower_bound(axis), box.upper_bound(axis)};
     }
 
 
@@ -124,8 +118,7 @@ namespace SlipStep
             quantity.kind != QuantityOfInterest::Kind::moment)
           parameters.reject(key, where + "a block in 2-D has the axes x and y");
         const auto faces = face_names(block.dimension);
-        if (!quantity.face.empty() &&
-            std::find(faces.begin(), faces.end(), quantity.face) == faces.end())
+        if (!quantity.face.empty() && !holds(faces, quantity.face))
           parameters.reject(key, where + "a block in 2-D has no such face");
         if (quantity.position.empty())
           continue;

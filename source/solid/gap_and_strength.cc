@@ -46,19 +46,21 @@ namespace SlipStep
 
 
 
-    // Dense enough for what meshes resolve, and with both ends.
+    // The ends of n intervals along each axis, or with a shift of a half their
+    // midpoints.
     void at_many_places(
       const PlaceNames                                         &face,
+      const unsigned int                                        n,
+      const double                                              shift,
       const std::function<void(const GapAndStrength::Place &)> &visit)
     {
-      const bool         is_line = face.names.size() == 1;
-      const unsigned int n       = is_line ? 2000 : 200;
-      for (unsigned int j = 0; j <= (is_line ? 0 : n); ++j)
-        for (unsigned int i = 0; i <= n; ++i)
+      const bool is_line = face.names.size() == 1;
+      for (unsigned int j = 0; j + shift <= (is_line ? shift : n); ++j)
+        for (unsigned int i = 0; i + shift <= n; ++i)
           {
-            GapAndStrength::Place place = {face.lengths[0] * i / n};
+            GapAndStrength::Place place = {face.lengths[0] * (i + shift) / n};
             if (!is_line)
-              place.push_back(face.lengths[1] * j / n);
+              place.push_back(face.lengths[1] * (j + shift) / n);
             visit(place);
           }
     }
@@ -70,18 +72,11 @@ namespace SlipStep
                    const PlaceNames    &face,
                    const unsigned int   n)
     {
-      const bool         is_line = face.names.size() == 1;
-      const unsigned int n_lines = is_line ? 1 : n;
-      double             sum     = 0.;
-      for (unsigned int j = 0; j < n_lines; ++j)
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            GapAndStrength::Place place = {face.lengths[0] * (i + 0.5) / n};
-            if (!is_line)
-              place.push_back(face.lengths[1] * (j + 0.5) / n);
-            sum += formula(place);
-          }
-      return sum / n / n_lines;
+      double sum = 0.;
+      at_many_places(face, n, 0.5, [&](const GapAndStrength::Place &place) {
+        sum += formula(place);
+      });
+      return sum / n / (face.names.size() == 1 ? 1 : n);
     }
 
 
@@ -141,7 +136,9 @@ namespace SlipStep
       }
     gap_formula      = read_face_formula(parameters, gap_key, face);
     strength_formula = read_face_formula(parameters, strength_key, face);
-    at_many_places(face, [&](const Place &place) {
+    // Dense enough for what meshes resolve, and with both ends.
+    const unsigned int n = axes.size() == 1 ? 2000 : 200;
+    at_many_places(face, n, 0., [&](const Place &place) {
       const double gap = gap_formula(place);
       if (!std::isfinite(gap) || gap < 0.)
         reject_value(
@@ -161,10 +158,10 @@ namespace SlipStep
     if (is_graded)
       {
         // The difference of two tells how well it is known.
-        const unsigned int n = axes.size() == 1 ? 6000 : 400;
-        mean_factor          = mean_of(strength_formula, face, n);
+        const unsigned int fine = axes.size() == 1 ? 6000 : 400;
+        mean_factor             = mean_of(strength_formula, face, fine);
         mean_error =
-          std::abs(mean_factor - mean_of(strength_formula, face, 3 * n / 4));
+          std::abs(mean_factor - mean_of(strength_formula, face, 3 * fine / 4));
       }
     if (falls)
       datum = smallest_gap;

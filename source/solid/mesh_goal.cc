@@ -24,14 +24,6 @@ namespace SlipStep
 
 
   template <int dim>
-  GoalWeight<dim>::GoalWeight(const BlockParameters &parameters)
-    : parameters(parameters)
-    , is_of_contact(parameters.refinement.goal == MeshGoal::contact)
-  {}
-
-
-
-  template <int dim>
   double GoalWeight<dim>::weight(const double extent,
                                  const double distance) const
   {

@@ -124,15 +124,6 @@ namespace SlipStep
 
 
 
-  template <int dim>
-  MeshMarker<dim>::MeshMarker(const BlockParameters &parameters)
-    : parameters(parameters)
-    , refinement(this->parameters.refinement)
-    , goal(parameters)
-  {}
-
-
-
   // Memory is estimated as for the first mesh.
   template <int dim>
   double MeshMarker<dim>::most_cells(const double n_cells,

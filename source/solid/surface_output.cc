@@ -11,7 +11,6 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
-#include <map>
 #include <sstream>
 
 namespace SlipStep
@@ -110,10 +109,7 @@ namespace SlipStep
                                          const Vector          &displacement,
                                          const ContactFace<3>  &contact)
     {
-      std::map<unsigned int, const ContactFace<3>::CellFace *> in_contact;
-      for (const auto &face : contact.cell_faces())
-        in_contact[face.cell->active_cell_index()] = &face;
-
+      const auto              in_contact = contact.places_of_cells();
       FEFaceValues<3>         corners(dof_handler.get_fe(),
                               QTrapezoid<2>(),
                               update_values | update_gradients |
@@ -127,8 +123,9 @@ namespace SlipStep
                 corners.reinit(cell, f);
                 rows.push_back(surface_row(corners, displacement, parameters));
                 if (f == parameters.contact_face)
-                  add_contact<3>(rows.back(),
-                                 *in_contact.at(cell->active_cell_index()));
+                  add_contact<3>(
+                    rows.back(),
+                    contact.cell_faces()[in_contact.at(cell->id())]);
               }
       return rows;
     }

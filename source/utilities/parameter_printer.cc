@@ -3,6 +3,7 @@
 
 #include <slipstep/utilities/parameter_printer.h>
 #include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/variants.h>
 
 #include <nlohmann/json.hpp>
 
@@ -21,13 +22,6 @@ namespace SlipStep
       std::vector<PrintedParameter> parameters;
       std::vector<ParameterSection> subsections;
     };
-
-
-
-    std::string key_of(const std::string &path)
-    {
-      return path.substr(path.rfind('/') + 1);
-    }
 
 
 
@@ -87,7 +81,7 @@ namespace SlipStep
                               allowed_in_words(*entry.pattern) + "]");
             }
           is_first = false;
-          print_setting(out, indent, key_of(entry.path), value);
+          print_setting(out, indent, name_of_key(entry.path), value);
         }
       for (const ParameterSection &child : section.subsections)
         {
@@ -108,11 +102,11 @@ namespace SlipStep
     {
       nlohmann::ordered_json object = nlohmann::ordered_json::object();
       for (const auto &[entry, value] : section.parameters)
-        object[key_of(entry.path)] = {{"value", value},
-                                      {"default", entry.default_value},
-                                      {"documentation", entry.documentation},
-                                      {"allowed",
-                                       allowed_in_words(*entry.pattern)}};
+        object[name_of_key(entry.path)] = {
+          {"value", value},
+          {"default", entry.default_value},
+          {"documentation", entry.documentation},
+          {"allowed", allowed_in_words(*entry.pattern)}};
       for (const ParameterSection &child : section.subsections)
         object[child.name] = json_section(child);
       return object;
@@ -139,7 +133,7 @@ namespace SlipStep
     {
       auto properties = nlohmann::ordered_json::object();
       for (const auto &[entry, value] : section.parameters)
-        properties[key_of(entry.path)] = schema_of(entry);
+        properties[name_of_key(entry.path)] = schema_of(entry);
       for (const ParameterSection &child : section.subsections)
         properties[child.name] = schema_of(child);
       return {{"type", "object"},
@@ -218,7 +212,7 @@ namespace SlipStep
           out << "| Key | Default | Allowed | Meaning |\n"
               << "| --- | --- | --- | --- |\n";
           for (const auto &[entry, value] : root.parameters)
-            out << "| " << cell(key_of(entry.path)) << " | "
+            out << "| " << cell(name_of_key(entry.path)) << " | "
                 << (entry.default_value.empty() ?
                       "" :
                       "`" + cell(entry.default_value) + "`")

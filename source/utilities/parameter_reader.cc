@@ -193,10 +193,9 @@ namespace SlipStep
 
       void check_section(FileState &state, const PrmStatement &statement) const
       {
-        const std::string where  = place(state.file, statement.line);
-        SweepText        &sweep  = state.sweep;
-        const bool        is_top = state.sections.empty();
-        const bool        is_in_variants =
+        SweepText &sweep  = state.sweep;
+        const bool is_top = state.sections.empty();
+        const bool is_in_variants =
           !is_top && state.sections.front().name == "Variants";
         const std::string path =
           path_of(state, statement.name, is_in_variants ? 2 : 0);
@@ -206,25 +205,26 @@ namespace SlipStep
         else if (is_top && statement.name == "Sweep")
           sweep.has_sweep = true;
         else if (is_in_variants && state.sections.size() == 1)
-          add_variant(sweep.variants, statement.name, where);
+          add_variant(sweep.variants, statement.name, statement.where);
         else if (known.paths(path + "/").empty() &&
                  is_section_outside(state, statement.name))
           throw MissingEnd(
-            where + ": an \"end\" is missing before subsection " +
+            statement.where + ": an \"end\" is missing before subsection " +
             statement.name + ": " + state.sections.back().in_words());
         else if (!is_top && state.sections.front().name == "Sweep")
-          throw InputError(where +
+          throw InputError(statement.where +
                            ": Sweep has no subsections, only "
                            "\"set Key = ...\" and \"set Values = ...\"");
         else if (known.paths(path + "/").empty() && is_in_variants &&
                  state.sections.size() == 2)
-          throw InputError(where + ": unknown section " + excerpt(path) +
+          throw InputError(statement.where + ": unknown section " +
+                           excerpt(path) +
                            "; if it is a variant, an \"end\" is missing: " +
                            state.sections.back().in_words());
         else
-          known.check_section(path, where);
+          known.check_section(path, statement.where);
         if (sweep.has_variants && sweep.has_sweep)
-          throw InputError(where +
+          throw InputError(statement.where +
                            ": both Variants and Sweep are given; a case "
                            "has one of them");
       }
@@ -256,33 +256,33 @@ namespace SlipStep
       {
         if (state.sections.empty())
           throw InputError(
-            place(state.file, statement.line) +
+            statement.where +
             ": \"end\" without a subsection that it could close");
         state.sections.pop_back();
       }
 
       void set_key(FileState &state, const PrmStatement &statement) const
       {
-        const std::string where = place(state.file, statement.line);
-        const std::string path  = path_of(state, statement.name);
+        const std::string path = path_of(state, statement.name);
         if (!state.sections.empty() && known.paths(path).empty() &&
             !known.paths(statement.name).empty())
-          throw InputError(where + ": unknown key " + excerpt(path) + "; for " +
-                           statement.name + ", an \"end\" is missing: " +
-                           state.sections.back().in_words());
-        known.check(path, statement.value, where);
+          throw InputError(
+            statement.where + ": unknown key " + excerpt(path) + "; for " +
+            statement.name +
+            ", an \"end\" is missing: " + state.sections.back().in_words());
+        known.check(path, statement.value, statement.where);
         const auto inserted = state.line_of_key.emplace(path, statement.line);
         if (!inserted.second)
-          throw InputError(where + ": " + path +
+          throw InputError(statement.where + ": " + path +
                            " is given twice, first in line " +
                            std::to_string(inserted.first->second));
-        state.assignments.push_back({path, statement.value, where, 0});
+        state.assignments.push_back(
+          {path, statement.value, statement.where, 0});
       }
 
       // "Key", "Values", or with a number from 2 behind it.
       void set_sweep_key(FileState &state, const PrmStatement &statement) const
       {
-        const std::string where    = place(state.file, statement.line);
         const std::size_t blank    = statement.name.find(' ');
         const std::string word     = statement.name.substr(0, blank);
         const bool        is_key   = word == "Key";
@@ -301,7 +301,7 @@ namespace SlipStep
           }
         if (!is_known)
           throw InputError(
-            where + ": unknown key Sweep/" + statement.name +
+            statement.where + ": unknown key Sweep/" + statement.name +
             did_you_mean(statement.name,
                          {"Key", "Values", "Key 2", "Values 2"}) +
             " Known are Key and Values, Key 2 and Values 2, and so on");
@@ -309,33 +309,33 @@ namespace SlipStep
         std::string &value  = is_key ? swept.key : swept.values;
         std::string &origin = is_key ? swept.key_origin : swept.values_origin;
         if (!origin.empty())
-          throw InputError(where + ": Sweep/" + statement.name +
+          throw InputError(statement.where + ": Sweep/" + statement.name +
                            " is given twice, first at " + origin);
         value  = statement.value;
-        origin = where;
+        origin = statement.where;
         if (value.empty())
-          throw InputError(where + ": Sweep/" + statement.name +
+          throw InputError(statement.where + ": Sweep/" + statement.name +
                            " is empty; to run a case without the sweep that it "
                            "includes, write an empty subsection Variants");
         if (is_key)
-          known.check_path(value, where);
+          known.check_path(value, statement.where);
       }
 
       void add_override(FileState &state, const PrmStatement &statement) const
       {
-        const std::string where = place(state.file, statement.line);
         if (state.sections.size() < 2)
-          throw InputError(where + ": in Variants, \"set\" stands in a "
-                                   "subsection named after the variant");
+          throw InputError(statement.where +
+                           ": in Variants, \"set\" stands in a "
+                           "subsection named after the variant");
         const std::string path = path_of(state, statement.name, 2);
-        known.check(path, statement.value, where);
+        known.check(path, statement.value, statement.where);
         Variant &variant = state.sweep.variants.back();
         for (const Variant::Override &other : variant.overrides)
           if (other.path == path)
-            throw InputError(where + ": " + path +
+            throw InputError(statement.where + ": " + path +
                              " is given twice in this variant, first at " +
                              other.origin);
-        variant.overrides.push_back({path, statement.value, where});
+        variant.overrides.push_back({path, statement.value, statement.where});
       }
 
       static std::filesystem::path included_file(const FileState    &state,
@@ -348,16 +348,14 @@ namespace SlipStep
           }
         catch (const InputError &error)
           {
-            throw InputError(place(state.file, statement.line) + ": include " +
-                             error.what());
+            throw InputError(statement.where + ": include " + error.what());
           }
       }
 
       void include_file(FileState &state, const PrmStatement &statement)
       {
-        const std::string where = place(state.file, statement.line);
         if (!state.sections.empty())
-          throw InputError(where +
+          throw InputError(statement.where +
                            ": \"include\" must stand outside of "
                            "subsections; an \"end\" is missing: " +
                            state.sections.back().in_words());
@@ -365,10 +363,10 @@ namespace SlipStep
         std::error_code             error;
         const auto canonical = std::filesystem::weakly_canonical(file, error);
         if (holds(open_files, canonical))
-          throw InputError(where + ": " + file.string() +
+          throw InputError(statement.where + ": " + file.string() +
                            " includes itself (a circle of includes)");
         const std::string what =
-          where + ": include " + excerpt(statement.value) + ": ";
+          statement.where + ": include " + excerpt(statement.value) + ": ";
         if (!std::filesystem::exists(file, error))
           throw InputError(what + "no such file (looked for " +
                            excerpt(file.string(), 300) + ")");
@@ -382,7 +380,7 @@ namespace SlipStep
             const Assignment &included = text.assignments[i];
             const auto        own      = state.line_of_key.find(included.path);
             if (own != state.line_of_key.end())
-              throw InputError(where + ": " + included.path +
+              throw InputError(statement.where + ": " + included.path +
                                " is set before this include (line " +
                                std::to_string(own->second) + ") and in it (" +
                                included.origin + "); move the include up");

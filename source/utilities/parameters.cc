@@ -38,17 +38,9 @@ namespace SlipStep
 
 
 
-    // The last part of a path.
-    std::string last_name(const std::string &path)
-    {
-      return path.substr(path.rfind('/') + 1);
-    }
-
-
-
     std::string sections_of(const std::string &path)
     {
-      return path.substr(0, path.size() - last_name(path).size());
+      return path.substr(0, path.size() - name_of_key(path).size());
     }
 
 
@@ -107,7 +99,7 @@ namespace SlipStep
           return candidate;
       if (same.empty())
         {
-          same                   = endings(last_name(path), candidates);
+          same                   = endings(name_of_key(path), candidates);
           const std::string near = nearest_name(path, same);
           if (!near.empty())
             return near;
@@ -121,9 +113,9 @@ namespace SlipStep
         if (is_same_word(sections_of(candidate), sections_of(path)))
           {
             section = sections_of(candidate);
-            siblings.push_back(last_name(candidate));
+            siblings.push_back(name_of_key(candidate));
           }
-      const std::string sibling = nearest_name(last_name(path), siblings);
+      const std::string sibling = nearest_name(name_of_key(path), siblings);
       return sibling.empty() ? nearest_name(path, candidates) :
                                section + sibling;
     }
@@ -210,7 +202,7 @@ namespace SlipStep
     const std::vector<std::string> sections = section_names(path);
     for (const std::string &section : sections)
       values->enter_subsection(section);
-    action(last_name(path));
+    action(name_of_key(path));
     for (std::size_t i = 0; i < sections.size(); ++i)
       values->leave_subsection();
   }
@@ -333,7 +325,7 @@ namespace SlipStep
     const auto own = own_values.find(path);
     return own != own_values.end() ?
              own->second :
-             values->get(section_names(path), last_name(path));
+             values->get(section_names(path), name_of_key(path));
   }
 
 
@@ -399,7 +391,7 @@ namespace SlipStep
           {
             std::vector<std::string> names;
             for (const std::string &path : known)
-              names.push_back(last_name(path));
+              names.push_back(name_of_key(path));
             near = nearest_name(name, names);
           }
         throw InputError(place(origin) +

@@ -41,45 +41,34 @@ namespace SlipStep
                                  const std::string &where,
                                  const unsigned int line)
     {
-      PrmStatement statement;
-      statement.line   = line;
-      std::string rest = text;
-      std::string word = lower_case(first_word(rest));
+      using Kind             = PrmStatement::Kind;
+      std::string       rest = text;
+      const std::string word = lower_case(first_word(rest));
+      const std::size_t sign = rest.find('=');
       if (word == "subsection" && !rest.empty())
-        {
-          statement.kind = PrmStatement::Kind::subsection;
-          statement.name = rest;
-        }
-      else if (word == "end" && rest.empty())
-        statement.kind = PrmStatement::Kind::end;
-      else if (word == "include" && !rest.empty())
-        {
-          statement.kind  = PrmStatement::Kind::include;
-          statement.value = rest;
-        }
-      else if (word == "set" && rest.find('=') != std::string::npos &&
-               rest.front() != '=')
-        {
-          const std::size_t sign = rest.find('=');
-          statement.kind         = PrmStatement::Kind::set;
-          statement.name         = trim(rest.substr(0, sign));
-          statement.value        = trim(rest.substr(sign + 1));
-        }
-      else
-        {
-          const std::vector<std::string> words    = {"set",
-                                                     "subsection",
-                                                     "end",
-                                                     "include"};
-          const bool                     is_known = holds(words, word);
-          statement.kind                          = PrmStatement::Kind::wrong;
-          statement.value = where + ": \"" + excerpt(text) +
-                            "\" is not understood" +
-                            (is_known ? "" : did_you_mean(word, words)) +
-                            " (a line is one of: set KEY = VALUE, subsection "
-                            "NAME, end, include FILE, # comment)";
-        }
-      return statement;
+        return {Kind::subsection, rest, "", line, where};
+      if (word == "end" && rest.empty())
+        return {Kind::end, "", "", line, where};
+      if (word == "include" && !rest.empty())
+        return {Kind::include, "", rest, line, where};
+      if (word == "set" && sign != std::string::npos && sign > 0)
+        return {Kind::set,
+                trim(rest.substr(0, sign)),
+                trim(rest.substr(sign + 1)),
+                line,
+                where};
+      const std::vector<std::string> words = {"set",
+                                              "subsection",
+                                              "end",
+                                              "include"};
+      return {Kind::wrong,
+              "",
+              where + ": \"" + excerpt(text) + "\" is not understood" +
+                (holds(words, word) ? "" : did_you_mean(word, words)) +
+                " (a line is one of: set KEY = VALUE, subsection NAME, end, "
+                "include FILE, # comment)",
+              line,
+              where};
     }
 
 

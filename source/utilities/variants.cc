@@ -81,13 +81,15 @@ namespace SlipStep
 
 
 
+  std::string name_of_key(const std::string &path)
+  {
+    return path.substr(path.rfind('/') + 1);
+  }
+
+
+
   namespace
   {
-    std::string name_of_key(const std::string &path)
-    {
-      return path.substr(path.rfind('/') + 1);
-    }
-
     // "softening/Rate 0.1, subloading/Rate 500": two keys of one name.
     std::string
     label_with_sections(const std::vector<Variant::Override> &overrides)

@@ -9,9 +9,9 @@
 #include <slipstep/solid/field_schedule.h>
 #include <slipstep/solid/loads.h>
 #include <slipstep/solid/refinement_parameters.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/parameters.h>
 
-#include <algorithm>
 #include <array>
 #include <string>
 
@@ -161,22 +161,18 @@ namespace SlipStep
     /// prescribed somewhere.
     bool is_held_along_normal() const
     {
-      return std::any_of(faces.begin(),
-                         faces.end(),
-                         [this](const FaceConditions &face) {
-                           return face.is_prescribed[normal_axis()];
-                         });
+      return any_of(faces, [this](const FaceConditions &face) {
+        return face.is_prescribed[normal_axis()];
+      });
     }
 
     /// Whether a face is driven, or prescribed, along an axis of the contact
     /// plane.
     bool is_held_along(const unsigned int axis) const
     {
-      return std::any_of(faces.begin(),
-                         faces.end(),
-                         [axis](const FaceConditions &face) {
-                           return face.is_driven || face.is_prescribed[axis];
-                         });
+      return any_of(faces, [axis](const FaceConditions &face) {
+        return face.is_driven || face.is_prescribed[axis];
+      });
     }
 
     /// The same of any axis along which faces are loaded: there only friction

@@ -26,7 +26,10 @@ namespace SlipStep
   public:
     BlockProbes(const BlockParameters                 &parameters,
                 const Programme                       &programme,
-                const std::vector<QuantityOfInterest> &quantities);
+                const std::vector<QuantityOfInterest> &quantities)
+      : probes(probes_among(quantities))
+      , on_contact_face(parameters, programme, quantities)
+    {}
 
     /// Values in the order of probes_among(), for the step just accepted; the
     /// same on all ranks, which all take part.

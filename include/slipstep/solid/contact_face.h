@@ -16,6 +16,7 @@
 #include <slipstep/solid/contact_tangent.h>
 
 #include <array>
+#include <map>
 #include <vector>
 
 namespace SlipStep
@@ -173,6 +174,9 @@ namespace SlipStep
     {
       return faces;
     }
+
+    /// Index in cell_faces() of every cell there.
+    std::map<dealii::CellId, unsigned int> places_of_cells() const;
 
     const FrictionLaw &friction_law() const
     {

@@ -7,6 +7,7 @@
 #include <slipstep/solid/contact_face.h>
 #include <slipstep/solid/contact_projection.h>
 
+#include <map>
 #include <vector>
 
 namespace SlipStep
@@ -35,7 +36,11 @@ namespace SlipStep
     ContactTransfer(
       dealii::parallel::distributed::Triangulation<dim> &triangulation,
       const BlockParameters                             &parameters,
-      const FrictionLaw                                 &law);
+      const FrictionLaw                                 &law)
+      : triangulation(triangulation)
+      , parameters(parameters)
+      , projection(parameters.degree, law)
+    {}
 
     /// Attach the states to the cells, before the mesh changes. The face must
     /// not change until it has.
@@ -51,19 +56,8 @@ namespace SlipStep
     using States        = typename ContactProjection<dim>::States;
     using Bytes         = std::vector<char>;
 
-    /// Where the contact face of a cell is in the list of ContactFace, found by
-    /// level and index.
-    class Directory
-    {
-    public:
-      Directory(const ContactFace<dim> &contact);
-
-      /// Index in cell_faces(), or invalid_unsigned_int if the cell has none.
-      unsigned int find(const Cell &cell) const;
-
-    private:
-      std::vector<std::vector<unsigned int>> of_level;
-    };
+    /// Where the contact face of a cell is in ContactFace::cell_faces().
+    using Directory = std::map<dealii::CellId, unsigned int>;
 
     /// Cells at the contact face among the children of a cell, in the order of
     /// ContactProjection.

@@ -23,9 +23,11 @@ namespace SlipStep
   {
   public:
     /// @param area nominal, of contact [mm^2]
-    Drive(const Machine   &machine,
-          const Programme &programme,
-          const double     area);
+    Drive(const Machine &machine, const Programme &programme, const double area)
+      : machine(machine)
+      , programme(programme)
+      , area(area)
+    {}
 
     void begin_step(const double time, const bool is_first_of_segment);
 

@@ -30,7 +30,9 @@ namespace SlipStep
   class ErrorIndicator
   {
   public:
-    explicit ErrorIndicator(const BlockParameters &parameters);
+    explicit ErrorIndicator(const BlockParameters &parameters)
+      : parameters(parameters)
+    {}
 
     /// Squared error of every active cell of this rank's part of the mesh by
     /// active cell index [N mm]; 0 for cells of other ranks.

@@ -28,7 +28,10 @@ namespace SlipStep
   class GoalWeight
   {
   public:
-    explicit GoalWeight(const BlockParameters &parameters);
+    explicit GoalWeight(const BlockParameters &parameters)
+      : parameters(parameters)
+      , is_of_contact(parameters.refinement.goal == MeshGoal::contact)
+    {}
 
     /// Factor of the squared error of a cell; w_K [1/mm] or 1.
     double of(const typename dealii::Triangulation<dim>::active_cell_iterator

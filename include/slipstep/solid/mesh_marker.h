@@ -41,7 +41,11 @@ namespace SlipStep
   class MeshMarker
   {
   public:
-    explicit MeshMarker(const BlockParameters &parameters);
+    explicit MeshMarker(const BlockParameters &parameters)
+      : parameters(parameters)
+      , refinement(this->parameters.refinement)
+      , goal(parameters)
+    {}
 
     /// Set the flags of a mesh, instead of those it has.
     /// @param squared_errors by active cell index, in the norm of the goal

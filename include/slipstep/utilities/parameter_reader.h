@@ -28,6 +28,7 @@ namespace SlipStep
     std::string  name;
     std::string  value;
     unsigned int line = 0; ///< the first one, counted from 1
+    std::string  where;    ///< "file:line"
   };
 
   /// Split a .prm file into statements, without knowing any key.

@@ -9,6 +9,9 @@
 
 namespace SlipStep
 {
+  /// The last part of a path.
+  std::string name_of_key(const std::string &path);
+
   /// Add a variant that differs in nothing yet.
   /// @throws InputError if its label or folder is taken or too long
   void add_variant(std::vector<Variant> &variants,
