@@ -73,12 +73,10 @@ namespace SlipStep
   double FrictionLaw::expected_traction(const LocalSystem &local) const
   {
     const ContactState &start = local.start;
-    if (has_core() || std::max(start.loading_ratio, local.start_ratio) < 1e-3)
-      {
-        const double ratio = std::max(start.loading_ratio, local.start_ratio);
-        return (ratio < 1e-3 ? 1. : ratio) * local.strength +
-               (local.reach - local.trial_norm);
-      }
+    const double before = std::max(start.loading_ratio, local.start_ratio);
+    if (has_core() || before < 1e-3)
+      return (before < 1e-3 ? 1. : before) * local.strength +
+             (local.reach - local.trial_norm);
     const double driving =
       std::max(start.loading_ratio - start.normal_ratio, 0.);
     const double slip =
