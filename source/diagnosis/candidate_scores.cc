@@ -229,6 +229,9 @@ namespace SlipStep
               view.candidates[c].is_unstable = false;
             }
         }
+      view.set = DirectionSet(workspace.comparison,
+                              workspace.null_draws,
+                              view.set.directions);
       return view;
     }
 
@@ -264,14 +267,10 @@ namespace SlipStep
 
   namespace
   {
-    View score_anew(const Workspace &workspace, const Model &model)
+    View with_scores(const Workspace &workspace, const Model &model, View view)
     {
-      View view = find_directions(workspace, model);
       if (view.set.directions.empty())
         return view;
-      view.set = DirectionSet(workspace.comparison,
-                              workspace.null_draws,
-                              view.set.directions);
       const ScoreTest scores(model, workspace.null_draws, view.set);
       const std::vector<Direction> &directions = view.set.directions;
       for (std::size_t d = 0; d < directions.size(); ++d)
@@ -304,22 +303,54 @@ namespace SlipStep
   /// A model, the wave that it was asked for, and what was seen.
   struct ScoredModel
   {
-    ModelKey model;
-    double   track_wave;
-    View     view;
+    // What candidates change is the same where all that is simulated is, but
+    // for less than noise.
+    bool is_like(const Model &other, const Eigen::Index n_rows) const
+    {
+      constexpr double little = 1.;
+      return ModelKey(other).parts == key.parts &&
+             (other.residual - residual).head(n_rows).squaredNorm() < little;
+    }
+
+    ModelKey        key;
+    Eigen::VectorXd residual;
+    double          track_wave;
+    View            unscored, view;
   };
 
 
 
   View score_candidates(const Workspace &workspace, const Model &model)
   {
+    constexpr std::size_t most_kept = 4;
+
     const ModelKey key(model);
-    const double   wave = workspace.range.track_wave;
-    const auto    &last = workspace.last_scored;
-    if (last == nullptr || !(last->model == key) || last->track_wave != wave)
-      workspace.last_scored = std::make_shared<const ScoredModel>(
-        ScoredModel{key, wave, score_anew(workspace, model)});
-    return workspace.last_scored->view;
+    auto          &known = workspace.scored;
+    const auto     find  = [&](const auto &is_wanted) {
+      return std::find_if(known.begin(), known.end(), [&](const auto &other) {
+        return other->track_wave == workspace.range.track_wave &&
+               is_wanted(*other);
+      });
+    };
+    const auto same =
+      find([&](const ScoredModel &other) { return other.key == key; });
+    if (same != known.end())
+      return (*same)->view;
+    const auto alike    = find([&](const ScoredModel &other) {
+      return other.is_like(model, workspace.comparison.n_rows());
+    });
+    const View unscored = alike != known.end() ?
+                            (*alike)->unscored :
+                            find_directions(workspace, model);
+    known.push_front(std::make_shared<const ScoredModel>(
+      ScoredModel{key,
+                  model.residual,
+                  workspace.range.track_wave,
+                  unscored,
+                  with_scores(workspace, model, unscored)}));
+    if (known.size() > most_kept)
+      known.pop_back();
+    return known.front()->view;
   }
 
 

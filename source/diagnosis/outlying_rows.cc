@@ -106,7 +106,7 @@ namespace SlipStep
                                      workspace.null_draws.cols(),
                                      workspace.start.integer("Diagnosis/Seed"));
     prepare_gap_test(workspace);
-    workspace.last_scored.reset();
+    workspace.scored.clear();
     workspace.left_out.clear();
     return {result.begin(), result.end()};
   }

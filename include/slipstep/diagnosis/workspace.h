@@ -63,10 +63,10 @@ namespace SlipStep
     ///@}
 
     /// @name What is asked of the same model again: what score_candidates() saw
-    /// last, and left_out() found lately. Not for several threads.
+    /// and left_out() found lately. Not for several threads.
     ///@{
-    mutable std::shared_ptr<const ScoredModel>       last_scored = {};
-    mutable std::deque<std::pair<ModelKey, LeftOut>> left_out    = {};
+    mutable std::deque<std::shared_ptr<const ScoredModel>> scored   = {};
+    mutable std::deque<std::pair<ModelKey, LeftOut>>       left_out = {};
     ///@}
 
     /// Whether something was, or is to be, left undone since time is over, and

@@ -570,10 +570,10 @@ TEST_F(CampaignFolder, HasNoNameBeforeItIsProven)
   for (const CandidateView &seen : at_once.view.candidates)
     EXPECT_TRUE(seen.is_late && seen.ways.empty());
 
-  workspace.deadline    = std::chrono::steady_clock::time_point::max();
-  workspace.was_late    = false;
-  workspace.last_scored = {};
-  workspace.progress    = [&](const std::string &text) {
+  workspace.deadline = std::chrono::steady_clock::time_point::max();
+  workspace.was_late = false;
+  workspace.scored.clear();
+  workspace.progress = [&](const std::string &text) {
     if (text.rfind("added ", 0) != 0)
       return;
     ++n_added;
@@ -597,4 +597,25 @@ TEST_F(CampaignFolder, SaysThatTimeIsOverWithoutAGap)
   const Judgement judgement    = judge(*ingested.workspace, ingested.base);
   EXPECT_NE(name_of(judgement.verdict), name_of(Verdict::unnamed));
   EXPECT_TRUE(ingested.workspace->was_late);
+}
+
+
+
+// What candidates change is not simulated anew for a model that simulates the
+// same but for less than noise, and is for another one.
+TEST_F(CampaignFolder, KnowsWhatCandidatesChangeFromAModelAlike)
+{
+  plant(CampaignClass::one, 7);
+  ingested                   = ingest(parameters, {});
+  const Workspace &workspace = *ingested.workspace;
+  const auto change_in = [&](const double shift, const double difference) {
+    Model model = ingested.base.copy();
+    model.scaled[0] += shift;
+    model.objective += shift;
+    model.residual(0) += difference;
+    return score_candidates(workspace, model).set.directions.front().friction;
+  };
+  const Eigen::VectorXd first = change_in(0., 0.);
+  EXPECT_EQ(change_in(0.01, -0.9), first);
+  EXPECT_NE(change_in(0.02, 1.1), first);
 }
