@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/fit.h>
+#include <slipstep/calibration/fit_coordinates.h>
+#include <slipstep/calibration/row_matrix.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 
 #include <boost/random/sobol.hpp>
 #include <boost/random/uniform_01.hpp>
@@ -22,13 +25,16 @@ namespace SlipStep
     class SimulatedCampaign : public ceres::CostFunction
     {
     public:
+      /// @param start of the coordinates; those not named stay
       SimulatedCampaign(Simulator                       &simulator,
-                        const std::vector<double>       &scaled,
+                        const FitCoordinates            &coordinates,
+                        const Eigen::VectorXd           &start,
                         const std::vector<unsigned int> &free)
         : residuals(simulator.campaign.n_residuals())
-        , derivatives(residuals.size() * free.size())
+        , derivatives(residuals.size(), free.size())
         , simulator(simulator)
-        , scaled(scaled)
+        , coordinates(coordinates)
+        , start(start)
         , free(free)
       {
         set_num_residuals(1);
@@ -41,30 +47,50 @@ namespace SlipStep
                             double              *zero,
                             double             **jacobians) const override
       {
-        std::vector<double> point = scaled;
+        Eigen::VectorXd point = start;
         for (std::size_t i = 0; i < free.size(); ++i)
-          point[free[i]] = values[0][i];
+          point(free[i]) = values[0][i];
         *zero = 0.;
         return if_possible([&]() {
           throw_if_stopped();
-          simulator.residuals(point, residuals.data());
+          simulator.residuals(coordinates.scaled(point), residuals.data());
           if (jacobians != nullptr && jacobians[0] != nullptr)
             {
-              simulator.derivatives(point,
-                                    free,
-                                    residuals.data(),
-                                    derivatives.data());
+              find_derivatives(point);
               std::fill_n(jacobians[0], free.size(), 0.);
             }
           return true;
         });
       }
 
-      mutable std::vector<double> residuals, derivatives;
+      mutable std::vector<double> residuals;
+      mutable RowMatrix           derivatives;
 
     private:
+      // By those of the scaled values that the free coordinates move.
+      void find_derivatives(const Eigen::VectorXd &point) const
+      {
+        const Eigen::MatrixXd     all = coordinates.jacobian(point);
+        std::vector<unsigned int> moved;
+        for (unsigned int i = 0; i < all.rows(); ++i)
+          if (any_of(free,
+                     [&](const unsigned int j) { return all(i, j) != 0.; }))
+            moved.push_back(i);
+        RowMatrix       by_scaled(residuals.size(), moved.size());
+        Eigen::MatrixXd jacobian(moved.size(), free.size());
+        for (std::size_t i = 0; i < moved.size(); ++i)
+          for (std::size_t j = 0; j < free.size(); ++j)
+            jacobian(i, j) = all(moved[i], free[j]);
+        simulator.derivatives(coordinates.scaled(point),
+                              moved,
+                              residuals.data(),
+                              by_scaled.data());
+        derivatives.noalias() = by_scaled * jacobian;
+      }
+
       Simulator                      &simulator;
-      const std::vector<double>       scaled;
+      const FitCoordinates           &coordinates;
+      const Eigen::VectorXd           start;
       const std::vector<unsigned int> free;
     };
 
@@ -85,12 +111,13 @@ namespace SlipStep
                             double  *residuals,
                             double **jacobians) const override
       {
-        const auto copy = [](const std::vector<double> &from, double *to) {
-          std::copy(from.begin(), from.end(), to);
-        };
-        copy(simulated.residuals, residuals);
+        std::copy(simulated.residuals.begin(),
+                  simulated.residuals.end(),
+                  residuals);
         if (jacobians != nullptr && jacobians[0] != nullptr)
-          copy(simulated.derivatives, jacobians[0]);
+          std::copy_n(simulated.derivatives.data(),
+                      simulated.derivatives.size(),
+                      jacobians[0]);
         return true;
       }
 
@@ -140,6 +167,7 @@ namespace SlipStep
 
     // With the steps as they are planned.
     void solve(Simulator                                  &simulator,
+               const FitCoordinates                       &coordinates,
                const std::vector<unsigned int>            &free,
                const double                                precision,
                const std::chrono::steady_clock::time_point deadline,
@@ -150,12 +178,14 @@ namespace SlipStep
         (FLAGS_minloglevel = google::GLOG_FATAL) == google::GLOG_FATAL;
       (void)is_quiet;
 
+      Eigen::VectorXd     point = coordinates.of(result.scaled);
       std::vector<double> values;
       for (const unsigned int i : free)
-        values.push_back(result.scaled[i]);
+        values.push_back(point(i));
 
       ceres::Problem problem;
-      auto *simulated = new SimulatedCampaign(simulator, result.scaled, free);
+      auto          *simulated =
+        new SimulatedCampaign(simulator, coordinates, point, free);
       problem.AddResidualBlock(simulated, nullptr, values.data());
       problem.AddResidualBlock(new CampaignCost(*simulated),
                                nullptr,
@@ -184,7 +214,8 @@ namespace SlipStep
       ceres::Solve(options, &problem, &summary);
 
       for (std::size_t i = 0; i < free.size(); ++i)
-        result.scaled[free[i]] = values[i];
+        point(free[i]) = values[i];
+      result.scaled = coordinates.scaled(point);
       result.misfit = summary.IsSolutionUsable() ?
                         2. * summary.final_cost :
                         std::numeric_limits<double>::infinity();
@@ -206,10 +237,11 @@ namespace SlipStep
     {
       constexpr unsigned int most = 5;
 
-      solve(simulator, free, precision, deadline, result);
+      const FitCoordinates coordinates(simulator.campaign, result.scaled, free);
+      solve(simulator, coordinates, free, precision, deadline, result);
       const auto improve = [&](const std::vector<unsigned int> &some) {
         FitResult better = result;
-        solve(simulator, some, precision, deadline, better);
+        solve(simulator, coordinates, some, precision, deadline, better);
         result.iterations = better.iterations;
         if (!(better.misfit < result.misfit))
           return false;
@@ -222,9 +254,10 @@ namespace SlipStep
       };
       for (unsigned int n = 0; n < most; ++n)
         {
+          const Eigen::VectorXd     point = coordinates.of(result.scaled);
           std::vector<unsigned int> inside;
           for (const unsigned int i : free)
-            if (result.scaled[i] > 0. && result.scaled[i] < 1.)
+            if (point(i) > 0. && point(i) < 1.)
               inside.push_back(i);
           if (inside.empty() || inside.size() == free.size() || is_late() ||
               !improve(inside) || is_late() || !improve(free))

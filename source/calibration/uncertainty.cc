@@ -2,6 +2,7 @@
 #include <slipstep/calibration/fit.h>
 #include <slipstep/calibration/profile_side.h>
 #include <slipstep/calibration/uncertainty.h>
+#include <slipstep/calibration/row_matrix.h>
 #include <slipstep/measured_data/resample.h>
 #include <slipstep/measured_data/row_noise.h>
 
@@ -19,9 +20,6 @@ namespace SlipStep
   namespace
   {
     constexpr double infinite = std::numeric_limits<double>::infinity();
-
-    using RowMatrix =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 
 

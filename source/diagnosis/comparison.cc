@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/calibration/fit_coordinates.h>
 #include <slipstep/diagnosis/comparison.h>
 #include <slipstep/diagnosis/least_squares.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <boost/math/constants/constants.hpp>
+
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -317,57 +320,67 @@ namespace SlipStep
           }
       }
 
-      bool residuals(const Eigen::VectorXd &x, Eigen::VectorXd &result)
+      bool residuals(const std::vector<double> &scaled, Eigen::VectorXd &result)
       {
-        last_scaled.assign(x.data(), x.data() + x.size());
-        last_difference = comparison.difference(*model.simulator, last_scaled);
+        simulate(scaled);
         if (last_difference.size() == 0)
           return false;
         RowMatrix whitened = last_difference;
         comparison.whiten(whitened);
         leave_out(whitened);
-        result.resize(whitened.rows() + x.size());
+        result.resize(whitened.rows() + scaled.size());
         result.head(whitened.rows()) = whitened;
-        for (Eigen::Index i = 0; i < x.size(); ++i)
-          result(whitened.rows() + i) = belief[i] * (x(i) - start[i]);
+        for (std::size_t i = 0; i < scaled.size(); ++i)
+          result(whitened.rows() + i) = belief[i] * (scaled[i] - start[i]);
         return true;
       }
 
-      bool derivatives(const Eigen::VectorXd &x, Eigen::MatrixXd &result)
+      bool derivatives(const std::vector<double> &scaled,
+                       Eigen::MatrixXd           &result)
       {
-        constexpr double      step = 1e-4;
-        std::vector<double>   scaled(x.data(), x.data() + x.size());
-        const Eigen::VectorXd here =
-          scaled == last_scaled ?
-            last_difference :
-            comparison.difference(*model.simulator, scaled);
-        RowMatrix columns(here.size(), x.size());
-        for (Eigen::Index i = 0; i < x.size(); ++i)
+        constexpr double step = 1e-4;
+        simulate(scaled);
+        const Eigen::VectorXd &here  = last_difference;
+        std::vector<double>    other = scaled;
+        if (here.size() == 0)
+          return false;
+        RowMatrix columns(here.size(), scaled.size());
+        for (std::size_t i = 0; i < scaled.size(); ++i)
           {
-            double          moved = x(i) + step > 1. ? -step : step;
+            double          moved = scaled[i] + step > 1. ? -step : step;
             Eigen::VectorXd there;
             for (unsigned int side = 0; side < 2 && there.size() == 0; ++side)
               {
                 if (side == 1)
                   moved = -moved;
-                scaled[i] = x(i) + moved;
-                there     = comparison.difference(*model.simulator, scaled);
+                other[i] = scaled[i] + moved;
+                there    = comparison.difference(*model.simulator, other);
               }
-            scaled[i] = x(i);
+            other[i] = scaled[i];
             if (there.size() == 0)
               return false;
             columns.col(i) = (there - here) / moved;
           }
         comparison.whiten(columns);
         leave_out(columns);
-        result = Eigen::MatrixXd::Zero(columns.rows() + x.size(), x.size());
+        result =
+          Eigen::MatrixXd::Zero(columns.rows() + scaled.size(), scaled.size());
         result.topRows(columns.rows()) = columns;
-        for (Eigen::Index i = 0; i < x.size(); ++i)
+        for (std::size_t i = 0; i < scaled.size(); ++i)
           result(columns.rows() + i, i) = belief[i];
         return true;
       }
 
     private:
+      // At one point it is done once.
+      void simulate(const std::vector<double> &scaled)
+      {
+        if (scaled == last_scaled && last_difference.size() > 0)
+          return;
+        last_scaled     = scaled;
+        last_difference = comparison.difference(*model.simulator, scaled);
+      }
+
       // Standard deviation of the logarithm of a parameter of the starting
       // model around its start.
       static constexpr double believed_deviation = 2.;
@@ -389,9 +402,8 @@ namespace SlipStep
       Model                   &model;
       const std::vector<bool> &left_out;
       std::vector<double>      start, belief;
-      // Of the last call of residuals(), where derivatives are wanted next.
-      std::vector<double> last_scaled;
-      Eigen::VectorXd     last_difference;
+      std::vector<double>      last_scaled;
+      Eigen::VectorXd          last_difference;
     };
   } // namespace
 
@@ -402,28 +414,38 @@ namespace SlipStep
                        const std::vector<bool> &left_out,
                        const std::vector<bool> &held) const
   {
-    WhitenedProblem      problem(*this, model, left_out);
+    std::vector<unsigned int> free;
+    for (std::size_t i = 0; i < model.scaled.size(); ++i)
+      if (held.empty() || !held[i])
+        free.push_back(i);
+    const FitCoordinates  coordinates(*model.campaign, model.scaled, free);
+    const Eigen::VectorXd start = coordinates.of(model.scaled);
+    model.scaled                = coordinates.scaled(start);
+    WhitenedProblem problem(*this, model, left_out);
+    SquaresProblem  squares;
+    squares.residuals = [&](const Eigen::VectorXd &x,
+                            Eigen::VectorXd       &residuals) {
+      return problem.residuals(coordinates.scaled(x), residuals);
+    };
+    squares.derivatives = [&](const Eigen::VectorXd &x,
+                              Eigen::MatrixXd       &derivatives) {
+      if (!problem.derivatives(coordinates.scaled(x), derivatives))
+        return false;
+      derivatives *= coordinates.jacobian(x);
+      return true;
+    };
+    squares.deadline = deadline;
+    squares.goal     = end.goal;
     const SquaresMinimum minimum =
-      least_squares({[&](const Eigen::VectorXd &x, Eigen::VectorXd &residuals) {
-                       return problem.residuals(x, residuals);
-                     },
-                     [&](const Eigen::VectorXd &x,
-                         Eigen::MatrixXd       &derivatives) {
-                       return problem.derivatives(x, derivatives);
-                     },
-                     deadline,
-                     end.goal},
-                    Eigen::Map<const Eigen::VectorXd>(model.scaled.data(),
-                                                      model.scaled.size()),
-                    end.precision,
-                    held);
+      least_squares(squares, start, end.precision, held);
     model.objective =
       minimum.found ? minimum.sum : std::numeric_limits<double>::infinity();
     if (!minimum.found)
       return false;
-    model.scaled.assign(minimum.x.data(), minimum.x.data() + minimum.x.size());
-    model.residual    = -minimum.residuals;
-    model.derivatives = minimum.derivatives;
+    model.scaled   = coordinates.scaled(minimum.x);
+    model.residual = -minimum.residuals;
+    model.derivatives =
+      minimum.derivatives * coordinates.jacobian(minimum.x).inverse();
     return true;
   }
 

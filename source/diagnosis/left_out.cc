@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/calibration/fit.h>
+#include <slipstep/calibration/fit_coordinates.h>
 #include <slipstep/diagnosis/left_out.h>
 #include <slipstep/diagnosis/rules.h>
 #include <slipstep/utilities/lists.h>
@@ -19,13 +21,14 @@ namespace SlipStep
     struct Removal
     {
       std::vector<Eigen::Index> parameters;
-      Eigen::VectorXd           to_nothing; ///< of all, scaled
+      Eigen::VectorXd           to_nothing; ///< change of all FitCoordinates
     };
 
 
 
     // Of effects whose strength is in parameters of their own.
-    std::vector<Removal> removals(const Model &model)
+    std::vector<Removal> removals(const Model          &model,
+                                  const FitCoordinates &coordinates)
     {
       const std::vector<FitParameter> &fitted = model.campaign->fitted;
       std::vector<Removal>             result;
@@ -53,20 +56,27 @@ namespace SlipStep
                     (scaled > 0. ? std::min(scaled, 1.) : 0.) - model.scaled[i];
                 }
             }
-          if (has_strength)
-            result.push_back(removal);
+          if (!has_strength)
+            continue;
+          std::vector<double> without = model.scaled;
+          for (std::size_t i = 0; i < without.size(); ++i)
+            without[i] += removal.to_nothing(i);
+          removal.to_nothing =
+            coordinates.of(without) - coordinates.of(model.scaled);
+          result.push_back(removal);
         }
       return result;
     }
 
 
 
-    // A step of Gauss and Newton; effects without which the rows would hardly
-    // be met worse are nothing after it.
+    // A step of Gauss and Newton within bounds; effects without which the rows
+    // would hardly be met worse are nothing after it.
     struct Step
     {
       Step(const Eigen::MatrixXd      &derivatives,
            const Eigen::VectorXd      &residual,
+           const Eigen::VectorXd      &start,
            const Eigen::Index          n_rows,
            const std::vector<Removal> &removals);
 
@@ -76,27 +86,62 @@ namespace SlipStep
 
 
 
+    // The least squares of the parameters that are free; what would leave its
+    // bounds stays on them.
+    Eigen::VectorXd bounded(const Eigen::MatrixXd &derivatives,
+                            const Eigen::VectorXd &residual,
+                            const Eigen::VectorXd &start,
+                            Eigen::VectorXd        step,
+                            std::vector<bool>      is_free)
+    {
+      const Eigen::Index n = step.size();
+      for (Eigen::Index pass = 0; pass <= n; ++pass)
+        {
+          Eigen::MatrixXd told = derivatives;
+          for (Eigen::Index i = 0; i < n; ++i)
+            if (is_free[i])
+              step(i) = 0.;
+            else
+              told.col(i).setZero();
+          const Eigen::MatrixXd curvature = told.transpose() * told;
+          step += curvature.completeOrthogonalDecomposition().solve(
+            told.transpose() * (residual - derivatives * step));
+          bool is_inside = true;
+          for (Eigen::Index i = 0; i < n; ++i)
+            {
+              const double end = std::clamp(start(i) + step(i), 0., 1.);
+              if (!is_free[i] || end == start(i) + step(i))
+                continue;
+              step(i)    = end - start(i);
+              is_free[i] = false;
+              is_inside  = false;
+            }
+          if (is_inside)
+            break;
+        }
+      return step;
+    }
+
+
+
     Step::Step(const Eigen::MatrixXd      &derivatives,
                const Eigen::VectorXd      &residual,
+               const Eigen::VectorXd      &start,
                const Eigen::Index          n_rows,
                const std::vector<Removal> &removals)
       : is_untold(derivatives.cols(), false)
     {
       const auto step_without =
         [&](const std::vector<const Removal *> &untold) {
-          Eigen::VectorXd result = Eigen::VectorXd::Zero(derivatives.cols());
-          Eigen::MatrixXd told   = derivatives;
+          Eigen::VectorXd   fixed = Eigen::VectorXd::Zero(derivatives.cols());
+          std::vector<bool> is_free(fixed.size(), true);
           for (const Removal *removal : untold)
             for (const Eigen::Index i : removal->parameters)
               {
-                result(i) = removal->to_nothing(i);
-                told.col(i).setZero();
+                fixed(i)   = removal->to_nothing(i);
+                is_free[i] = false;
               }
-          const Eigen::MatrixXd curvature = told.transpose() * told;
-          const Eigen::VectorXd free =
-            curvature.completeOrthogonalDecomposition().solve(
-              told.transpose() * (residual - derivatives * result));
-          return Eigen::VectorXd(result + free);
+          return bounded(derivatives, residual, start, fixed, is_free);
         };
       const auto squares = [&](const Eigen::VectorXd &step) {
         return (residual - derivatives * step).head(n_rows).squaredNorm();
@@ -140,22 +185,28 @@ namespace SlipStep
           derivatives.middleRows(test.begin, test.size).setZero();
           residual.segment(test.begin, test.size).setZero();
         }
-      const Eigen::Index n = model.scaled.size();
-      const Step         newton(derivatives,
+      const FitCoordinates  coordinates(*model.campaign,
+                                       model.scaled,
+                                       all_parameters(*model.campaign));
+      const Eigen::VectorXd start = coordinates.of(model.scaled);
+      derivatives *= coordinates.jacobian(start);
+      const Eigen::Index    n = model.scaled.size();
+      const Step            newton(derivatives,
                         residual,
+                        start,
                         comparison.n_rows(),
-                        removals(model));
-      Eigen::VectorXd    step    = newton.step;
-      Model              result  = model.copy();
-      bool               is_near = true;
+                        removals(model, coordinates));
+      Eigen::VectorXd       step    = newton.step;
+      Model                 result  = model.copy();
+      bool                  is_near = true;
+      const Eigen::VectorXd end     = (start + step).cwiseMax(0.).cwiseMin(1.);
+      step                          = end - start;
+      result.scaled                 = coordinates.scaled(end);
       for (Eigen::Index i = 0; i < n; ++i)
-        {
-          const double slope =
-            natural_slope(model.campaign->fitted[i], model.scaled[i]);
-          is_near          = is_near && std::abs(step(i)) * slope < 0.5;
-          result.scaled[i] = std::clamp(model.scaled[i] + step(i), 0., 1.);
-          step(i)          = result.scaled[i] - model.scaled[i];
-        }
+        is_near = is_near && std::abs(result.scaled[i] - model.scaled[i]) *
+                                 natural_slope(model.campaign->fitted[i],
+                                               model.scaled[i]) <
+                               0.5;
       is_all_told = none_of(newton.is_untold, [](const bool is) { return is; });
       result.objective = (residual - derivatives * step).squaredNorm();
       if (!is_near)

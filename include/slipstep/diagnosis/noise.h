@@ -2,6 +2,8 @@
 #ifndef slipstep_diagnosis_noise_h
 #define slipstep_diagnosis_noise_h
 
+#include <slipstep/calibration/row_matrix.h>
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -10,10 +12,6 @@
 
 namespace SlipStep
 {
-  /// Rows of numbers, one column per quantity, stored by rows.
-  using RowMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
   /// What makes measured friction differ from the friction of the contact:
   /// noise of every row, a drift within a test (a process of Ornstein and
   /// Uhlenbeck), and what is the same throughout a test but not in the next

@@ -360,6 +360,8 @@ namespace SlipStep
   struct EffectParameter : EffectKey
   {
     std::string meaning; ///< without what the key says
+    /// Path of a key that it must not exceed, "" for none.
+    std::string at_most = "";
   };
 
   /// Pattern of a parameter that is more than 0.

@@ -35,7 +35,8 @@ namespace SlipStep
             "0.098",
             positive(Dimension::number, 100.)},
            "kinetic coefficient of friction, reached after long sliding, at the "
-           "'Speed of the coefficients'; at most the static coefficient"}};
+           "'Speed of the coefficients'; at most the static coefficient",
+           "Friction/Static coefficient"}};
         info.neutral_settings = {{"Rate", "0 1/mm"}};
         info.typical_settings = {{"Rate", "5"}, {"Steepness", "3"}};
         info.search       = {"exponential in slip, never comes back", search};

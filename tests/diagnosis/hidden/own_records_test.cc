@@ -361,3 +361,23 @@ TEST_F(OwnRecords, CtrlCLeavesWhatIsProven)
     }
   const SignalGuard forgets_it;
 }
+
+
+
+// Where friction never falls, a starting model that may let it fall is fitted
+// as well as one that may not.
+TEST_F(OwnRecords, AFallThatIsNoneIsFittedAsNone)
+{
+  write(0., [](const double position) { return 1. + 0.005 * position; });
+  read("subloading", usual_contact);
+  const double without = ingested.base.objective;
+  read("subloading, softening",
+       usual_contact + "; Friction/softening/Kinetic coefficient from 0.02 to "
+                       "0.6\nset Friction/softening/Kinetic coefficient = "
+                       "0.1\nset Friction/softening/Rate = 0.5");
+  EXPECT_NEAR(ingested.base.objective, without, 0.01 * without);
+  Values values = ingested.base.values();
+  EXPECT_NEAR(values.at("Friction/softening/Kinetic coefficient"),
+              values.at("Friction/Static coefficient"),
+              1e-4);
+}
