@@ -193,12 +193,10 @@ namespace SlipStep
           const bool is_over =
             gains.back() < enough() || is_late() ||
             !is_in_reach(best.sum, problem.goal, gains, most_iterations - n);
-          // By derivatives that were carried on no step says that it is the
-          // last.
-          if (was_exact && gains.back() < enough())
-            return;
           if (!is_exact && (is_over || !was_foreseen) && !renew())
             return;
+          // By derivatives that were carried on no step says that it is the
+          // last.
           if (is_over && (was_exact || is_late()))
             return;
         }

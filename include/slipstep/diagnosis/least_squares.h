@@ -41,8 +41,8 @@ namespace SlipStep
   /// active bounds, until a step gains less than @p precision
   /// times the larger of one and the mean of the squares. While steps gain what
   /// they promise, the derivatives are carried on by Broyden's rule: each costs
-  /// as many simulations as there are parameters. Those returned were asked for
-  /// at the end, or before a last step that gained next to nothing.
+  /// as many simulations as there are parameters. Those returned are asked for
+  /// at the end.
   ///
   /// Beside fit(), which asks Ceres: a diagnosis makes hundreds of short fits
   /// from good starts, for which the trial steps that Ceres spends on bounds
