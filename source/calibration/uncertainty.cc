@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/fit.h>
 #include <slipstep/calibration/profile_side.h>
-#include <slipstep/calibration/uncertainty.h>
 #include <slipstep/calibration/row_matrix.h>
+#include <slipstep/calibration/uncertainty.h>
 #include <slipstep/measured_data/resample.h>
 #include <slipstep/measured_data/row_noise.h>
 

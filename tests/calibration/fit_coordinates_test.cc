@@ -83,6 +83,28 @@ TEST_F(Planted, CoordinatesAreWhatTheLawTakes)
 
 
 
+// On the bounds, too, wherever those of the two begin.
+TEST_F(Planted, CoordinatesOnBoundsAreWhatTheLawTakes)
+{
+  plant(folder.path(), calibration_case(paper), {1., 200.}, 20, 5e-4, 1);
+  for (const std::string least : {"0.03", "0.05", "0.07"})
+    {
+      const Campaign campaign(
+        fitting({{"Calibration/Parameters",
+                  static_path + " from 0.05 to 0.3 log; " + kinetic_path +
+                    " from " + least + " to 0.3 log"}}));
+      const FitCoordinates coordinates(campaign, {0.5, 0.2}, {0, 1});
+      Simulator            simulator(campaign);
+      for (const double x : {0., 1.})
+        for (const double share : {0., 0.5, 1.})
+          EXPECT_NO_THROW(FrictionLaw(
+            simulator.with(coordinates.scaled(Eigen::Vector2d(x, share)))))
+            << least << ' ' << x << ' ' << share;
+    }
+}
+
+
+
 // What the table of an effect says of the greatest value is what the law takes.
 TEST(FitCoordinates, WhatIsAtMostAnotherKeyIsRefusedAbove)
 {
