@@ -23,7 +23,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/lac/precondition.h>
 #include <deal.II/lac/vector_memory.h>
 
 #include <deal.II/multigrid/mg_transfer_global_coarsening.h>
@@ -44,6 +43,7 @@
 #include <slipstep/solid/linear_solver/elastic_operator.templates.h>
 #include <slipstep/solid/linear_solver/multigrid_levels.h>
 #include <slipstep/solid/linear_solver/preconditioner.h>
+#include <slipstep/solid/linear_solver/smoother.h>
 #include <slipstep/solid/linear_solver/tangent_system.h>
 #include <slipstep/utilities/exceptions.h>
 
@@ -52,12 +52,11 @@ namespace SlipStep
   /// Conjugate residuals with matrix-free products, preconditioned by one
   /// V-cycle of geometric multigrid in single precision.
   ///
-  /// Smoother: Chebyshev polynomials of degree 5 of the Jacobi-preconditioned
-  /// operator. Eigenvalue bounds and elastic diagonals are computed once per
-  /// mesh; the contact tangent is renewed on all levels with every
-  /// linearisation. Smoothers have its definite_part() only, but smooth the
-  /// residual of all of it, before and after the coarser levels: so the cycle
-  /// is stable for every coefficient of friction, and consistent.
+  /// Elastic diagonals are computed once per mesh; the contact tangent is
+  /// renewed on all levels with every linearisation. Smoothers (Smoother) have
+  /// its definite_part() only, but smooth the residual of all of it, before and
+  /// after the coarser levels: so the cycle is stable for every coefficient of
+  /// friction, and consistent.
   /// @tparam Simd names the width, so that two can live in one program
   template <int dim, int degree, typename Simd = dealii::VectorizedArray<float>>
   class MultigridSystem : public TangentSystem<dim>
@@ -84,27 +83,20 @@ namespace SlipStep
   private:
     using FloatVector = dealii::LinearAlgebra::distributed::Vector<float>;
     using LevelMatrix = ElasticOperator<dim, degree, float>;
-    using Jacobi      = dealii::DiagonalMatrix<FloatVector>;
-    using Smoother =
-      dealii::PreconditionChebyshev<LevelMatrix, FloatVector, Jacobi>;
-    using Transfer = dealii::MGTwoLevelTransfer<dim, FloatVector>;
+    using Transfer    = dealii::MGTwoLevelTransfer<dim, FloatVector>;
 
     /// All levels but the coarsest.
     struct Level
     {
       std::unique_ptr<LevelMatrix> matrix;
-      std::shared_ptr<Jacobi>      jacobi;
-      Smoother                     smoother;
-      float                        largest_eigenvalue = 1.f; ///< its bound
+      Smoother<LevelMatrix>        smoother;
       Transfer                     transfer; ///< to the next coarser level
-      mutable FloatVector          x, b, residual, correction;
+      mutable FloatVector          x, b, residual;
     };
 
-    void         setup_level(const unsigned int level);
-    unsigned int smoothings_for(const ContactTangent<dim> &tangent) const;
-    void         cycle(const unsigned int level) const;
-    void         smooth(const Level &level) const;
-    void         solve_coarsest() const;
+    void setup_level(const unsigned int level);
+    void cycle(const unsigned int level) const;
+    void solve_coarsest() const;
 
     MultigridLevels<dim>                 levels;
     ElasticOperator<dim, degree, double> matrix;
@@ -167,9 +159,6 @@ namespace SlipStep
 
 
 
-  // The bounds are those of the elastic operator; the diagonal grows with the
-  // contact tangent as the operator does. Constraints are needed for the first
-  // vector of their estimate only.
   template <int dim, int degree, typename Simd>
   void MultigridSystem<dim, degree, Simd>::setup_level(const unsigned int l)
   {
@@ -177,54 +166,11 @@ namespace SlipStep
     level.matrix->initialize_dof_vector(level.x);
     level.b.reinit(level.x);
     level.residual.reinit(level.x);
-    level.correction.reinit(level.x);
-    level.matrix->compute_diagonals();
-    level.matrix->release_setup_data();
-    level.jacobi = std::make_shared<Jacobi>();
-    level.jacobi->get_vector().reinit(level.x);
-    level.matrix->get_inverse_diagonal(level.jacobi->get_vector(), 1.);
-
-    typename Smoother::AdditionalData settings;
-    settings.preconditioner      = level.jacobi;
-    settings.degree              = 5;
-    settings.smoothing_range     = 20.;
-    settings.eig_cg_n_iterations = 15;
-    settings.constraints.copy_from(levels[l].constraints);
-    level.smoother.initialize(*level.matrix, settings);
-    const auto bounds            = level.smoother.estimate_eigenvalues(level.x);
-    settings.eig_cg_n_iterations = 0;
-    settings.max_eigenvalue      = bounds.max_eigenvalue_estimate;
-    level.largest_eigenvalue     = bounds.max_eigenvalue_estimate;
-    settings.constraints.clear();
-    level.smoother.initialize(*level.matrix, settings);
-
+    level.smoother.initialize(*level.matrix, levels[l].constraints, level.x);
     level.transfer.reinit(*levels[l].dof_handler,
                           *levels[l - 1].dof_handler,
                           levels[l].float_constraints,
                           levels[l - 1].float_constraints);
-  }
-
-
-
-  // A smoothing leaves mu times the coupling of normal and tangential tractions
-  // by the block, up to a half: for more than mu = 1 that is a bad smoother,
-  // and two or three of them are a good one.
-  template <int dim, int degree, typename Simd>
-  unsigned int MultigridSystem<dim, degree, Simd>::smoothings_for(
-    const ContactTangent<dim> &tangent) const
-  {
-    double largest = 0.; // mu
-    for (const FaceTangent<dim> &face : tangent)
-      for (const auto &value : face.values)
-        if (const double normal = value[normal_axis][normal_axis])
-          for (unsigned int d = 0; d < dim; ++d)
-            if (d != normal_axis)
-              largest =
-                std::max(largest, std::abs(value[d][normal_axis] / normal));
-    largest =
-      dealii::Utilities::MPI::max(largest,
-                                  levels[0].triangulation->get_communicator());
-    return largest <= 1.01 ? 1 : largest <= 1.51 ? 2 : 3;
   }
 
 
@@ -234,7 +180,9 @@ namespace SlipStep
     const ContactTangent<dim> &tangent,
     const BodyFactors         &body)
   {
-    n_smoothings = smoothings_for(tangent);
+    n_smoothings = smoothings_for(
+      dealii::Utilities::MPI::max(largest_coefficient(tangent, normal_axis),
+                                  levels[0].triangulation->get_communicator()));
     levels.set_tangent(tangent);
     matrix.set_contact(tangent, false);
     matrix.set_body(body);
@@ -242,8 +190,7 @@ namespace SlipStep
       {
         smoothed[l].matrix->set_contact(levels[l].tangent, true);
         smoothed[l].matrix->set_body(body);
-        smoothed[l].matrix->get_inverse_diagonal(
-          smoothed[l].jacobi->get_vector(), smoothed[l].largest_eigenvalue);
+        smoothed[l].smoother.renew(*smoothed[l].matrix);
       }
     coarse_matrix.set_tangent(coarse_is_factorised ?
                                 levels[0].tangent :
@@ -262,24 +209,14 @@ namespace SlipStep
     const Level &level = smoothed[l];
     level.smoother.vmult(level.x, level.b);
     for (unsigned int i = 1; i < n_smoothings; ++i)
-      smooth(level);
+      level.smoother.step(*level.matrix, level.x, level.b, level.residual);
     level.matrix->residual(level.residual, level.x, level.b);
     smoothed[l - 1].b = 0.f;
     level.transfer.restrict_and_add(smoothed[l - 1].b, level.residual);
     cycle(l - 1);
     level.transfer.prolongate_and_add(level.x, smoothed[l - 1].x);
     for (unsigned int i = 0; i < n_smoothings; ++i)
-      smooth(level);
-  }
-
-
-
-  template <int dim, int degree, typename Simd>
-  void MultigridSystem<dim, degree, Simd>::smooth(const Level &level) const
-  {
-    level.matrix->residual(level.residual, level.x, level.b);
-    level.smoother.vmult(level.correction, level.residual);
-    level.x += level.correction;
+      level.smoother.step(*level.matrix, level.x, level.b, level.residual);
   }
 
 
