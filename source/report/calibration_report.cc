@@ -2,6 +2,7 @@
 #include <slipstep/report/calibration_report.h>
 
 #include <slipstep/report/curves.h>
+#include <slipstep/report/profiles.h>
 
 #include <boost/algorithm/string/replace.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -92,7 +93,8 @@ namespace SlipStep
                                            " (neither end)");
       return text.empty() ?
                "" :
-               "Within their bounds, these tests do not limit: " + text + ".";
+               "Within the bounds given, these tests do not limit: " + text +
+                 ".";
     }
 
     /// What one standard deviation along a weak direction changes:

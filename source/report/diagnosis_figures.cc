@@ -6,6 +6,7 @@
 #include <slipstep/report/diagnosis_sections.h>
 #include <slipstep/report/diagnosis_report.h>
 #include <slipstep/report/curves.h>
+#include <slipstep/report/profiles.h>
 
 #include <boost/math/distributions/normal.hpp>
 

@@ -2,7 +2,6 @@
 #ifndef slipstep_report_curves_h
 #define slipstep_report_curves_h
 
-#include <slipstep/calibration/calibration.h>
 #include <slipstep/report/page.h>
 
 namespace SlipStep
@@ -80,28 +79,6 @@ namespace SlipStep
 
   /// An axis from zero, unless that would hide the difference.
   Range with_zero(Range y);
-
-  /// The profile likelihood of a parameter, as pictures show it: values in its
-  /// unit, the increase over the threshold.
-  struct DrawnProfile : ProfileInterval
-  {
-    std::string name, unit;
-    /// Whether the parameter is fitted by its logarithm.
-    bool is_logarithmic = false;
-    /// Where the search ends.
-    double lower_bound = -std::numeric_limits<double>::infinity();
-    double upper_bound = std::numeric_limits<double>::infinity();
-    /// Distance to the threshold by the curvature alone, of the value or of its
-    /// logarithm; infinite if unknown.
-    double distance = std::numeric_limits<double>::infinity();
-  };
-
-  /// How the misfit grows when one parameter is held at other values and the
-  /// others are fitted again, as HTML; profiles of one point are left out.
-  std::string draw_profiles(Page                            &page,
-                            const std::string               &title,
-                            const std::vector<DrawnProfile> &profiles,
-                            const double                     confidence);
 } // namespace SlipStep
 
 #endif
