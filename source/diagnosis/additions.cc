@@ -65,12 +65,13 @@ namespace SlipStep
 
 
 
-    // Those that chance does not explain, fitted.
+    // Those that chance does not explain, fitted. Once there is one, others
+    // need no more than the whole level: they may explain the same as well.
     std::vector<Model> Additions::single(std::optional<Model> &at_bound)
     {
       constexpr unsigned int most_tried = 5;
 
-      const double       level = level_of_round(workspace, n_effects);
+      double             level = level_of_round(workspace, n_effects);
       std::vector<Model> found;
       unsigned int       n_tried = 0;
       double             gain    = 0.; // of the best
@@ -78,6 +79,7 @@ namespace SlipStep
         {
           if (!is_evident(seen, level) || n_tried == most_tried)
             continue;
+          level = workspace.level;
           if (workspace.is_late())
             return {};
           ++n_tried;

@@ -58,8 +58,6 @@ namespace SlipStep
         return effect_names(result.model.parts).size();
       }
 
-      double level() const;
-
       bool exchange_and_prune();
 
       std::size_t weakest() const;
@@ -81,15 +79,6 @@ namespace SlipStep
       std::vector<Model>   beginnings; ///< what was added first, and the others
       SearchResult         result;
     };
-
-
-
-    // What is left of the level for the part added last, or its rivals.
-    double Searcher::level() const
-    {
-      return level_of_round(workspace,
-                            std::max<std::size_t>(1, n_effects()) - 1);
-    }
 
 
 
@@ -264,7 +253,7 @@ namespace SlipStep
           const double promised =
             std::pow(seen.score.strength * seen.score.free_length, 2);
           const bool is_same = seen.candidate.name == part.name;
-          if (!is_evident(seen, level()) ||
+          if (!is_evident(seen, workspace.level) ||
               promised < promise_of_rivals(cost) || n_tried == most_rivals ||
               (is_same && seen.candidate.formulas.size() < 2))
             continue;

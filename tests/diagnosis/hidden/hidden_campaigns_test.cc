@@ -51,6 +51,8 @@ TEST_P(HiddenCampaign, IsDiagnosed)
       EXPECT_EQ(trial.named, trial.truth);
       EXPECT_LT(trial.error_after, 0.7 * trial.error_before);
     }
+  else if (expected.verdict == Verdict::ambiguous)
+    EXPECT_TRUE(trial.holds_truth());
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -99,6 +101,12 @@ INSTANTIATE_TEST_SUITE_P(
     Expected{CampaignClass::other_formula, 50, Verdict::named, {"compliance"}},
     Expected{CampaignClass::other_formula, 42, Verdict::named, {"healing"}},
     Expected{CampaignClass::third_formula, 3, Verdict::named, {"overstress"}},
+    // Of three candidates that explain it nearly as well, a chance of 0.02 is
+    // reached by one that is wrong, and 0.04 by heating.
+    Expected{CampaignClass::third_formula,
+             649,
+             Verdict::ambiguous,
+             {"anisotropy"}},
     // Positions to seven times what the contact moves before it slips.
     Expected{CampaignClass::none,
              2,
