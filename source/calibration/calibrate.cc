@@ -603,7 +603,7 @@ namespace SlipStep
               correct_steps();
             }
           result.warnings.push_back(
-            "Following the intervals still leads to better values: treat "
+            "The search for the intervals still finds better values: treat "
             "values and intervals with caution.");
         }
       catch (const RunError &)

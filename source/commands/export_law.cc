@@ -57,7 +57,7 @@ namespace SlipStep
       text << "**   " << n + 1
            << "  turn_rad: of the surface in the slip directions since the "
               "point first touched;\n**      angles of the law and vectors "
-              "above are measured in the directions of then\n";
+              "above refer to the directions at that time\n";
       return text.str();
     }
 

@@ -330,9 +330,10 @@ namespace SlipStep
       "= <number>]' (where the loading ratio crosses 0.99 or the number, on "
       "the centre line of the face along the sliding axis, first seen from the "
       "rear), 'dissipated energy'. All but the first three are taken at the "
-      "end or 'after <length>'. Displacements are paths of the drive since the "
-      "beginning of the programme; between steps they are interpolated by a "
-      "monotone cubic in time. Empty: none.");
+      "end or 'after <length>'. This length, that of the friction force and "
+      "the displacement at peak are paths of the drive since the beginning of "
+      "the programme; between steps quantities are interpolated by a monotone "
+      "cubic in time. Empty: none.");
   }
 
 

@@ -77,7 +77,8 @@ namespace SlipStep
         reading.length = parameters.number(section + (evolving[0] == "ageing" ?
                                                         "Renewal length" :
                                                         "Slip length"));
-        // The age counts in units of this time only.
+        // The law takes the state only as a ratio to this time: d/d ln(state)
+        // is minus d/d ln(time).
         reading.b =
           (steady_friction(sooner, slide) - steady_friction(later, slide)) /
           (2. * step);

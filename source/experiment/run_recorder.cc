@@ -84,10 +84,10 @@ namespace SlipStep
       const double left = (end_time - now) / step;
       if (!(left > std::max(many, many_times * n)))
         return "";
-      return "the last " + std::to_string(n_steps) + " steps took " +
-             rounded_text(step, 2) +
-             " s each; at that pace the programme takes " +
-             rounded_text(left, 2) + " more";
+      return "the last " + std::to_string(n_steps) +
+             " steps advanced the time of the programme by " +
+             rounded_text(step, 2) + " s each; at that pace it takes " +
+             rounded_text(left, 2) + " more steps";
     }
   } // namespace
 

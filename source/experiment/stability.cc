@@ -431,9 +431,8 @@ namespace SlipStep
       if (sliding.grows_at_once())
         {
           const auto speeds = unstable_speeds(law, slide);
-          return begin + ": between " + number(speeds[0]) + " and " +
-                 number(speeds[1]) + " mm/s at least friction falls" +
-                 by_which +
+          return begin + ": at least between " + number(speeds[0]) + " and " +
+                 number(speeds[1]) + " mm/s, friction falls" + by_which +
                  ", with speed or with slip, by more than the contact's own "
                  "stiffness can balance, so that the contact sticks and jumps "
                  "and the time steps get very short. A memory length (effect "

@@ -33,14 +33,14 @@ namespace SlipStep
       "Time stepping/Tolerance",
       "5e-4",
       Quantity(Dimension::number, 1e-14, 1.),
-      "Largest difference, in one step, between the friction force of the "
-      "second-order method that makes the step and that of a first-order "
-      "method; the same holds for strength, coefficient of friction and normal "
-      "ratio. Relative to the present strength. A straight line from row to "
-      "row may be off by four times as much. The error of the result is "
-      "smaller, and proportional to the tolerance. Between 1e-14 and 1, no "
-      "unit; at 1 practically every step is accepted, so that the other keys "
-      "determine the number of steps.");
+      "Error that a step aims at: the difference of its friction force, found "
+      "by a second-order method, from that of a first-order method, as a share "
+      "of the present strength. Strength, coefficient of friction and normal "
+      "ratio are judged in the same way. A straight line from row to row may "
+      "be off by four times the tolerance. The error of the result is smaller, "
+      "and proportional to the tolerance. Between 1e-14 and 1, no unit; at 1 "
+      "practically every step is accepted, so that the other keys determine "
+      "the number of steps.");
     parameters.declare(
       "Time stepping/Least steps per statement",
       "10",
@@ -51,13 +51,14 @@ namespace SlipStep
       "Time stepping/First slip",
       "0.1",
       Quantity(Dimension::number, 1e-6, 1e6),
-      "Slip in the first step of a slide, relative to the elastic slip at which "
-      "the static friction is reached. Between 1e-6 and 1e6, no unit.");
+      "Distance that the drive moves in the first step of a slide, relative to "
+      "the elastic slip at which the static friction is reached. Between 1e-6 "
+      "and 1e6, no unit.");
     parameters.declare(
       most_steps_key,
       "200000",
       dealii::Patterns::Integer(1, 1000000000),
-      "Number of steps, tried ones included, after which a statement of the "
+      "Number of steps, rejected ones included, after which a statement of the "
       "programme is given up and the run fails; a 'follow' may have as many more "
       "as its test has rows. 1 or more.");
     parameters.declare(
@@ -72,8 +73,8 @@ namespace SlipStep
       dealii::Patterns::Integer(0, 1000000),
       "Number of equal steps of each statement of the programme, and from row "
       "to row of a 'follow', whatever error they make: for convergence studies. "
-      "The keys above are not used then. 0: steps are chosen by the "
-      "tolerance.");
+      "Tolerance, Least steps per statement and First slip are not used then. "
+      "0: steps are chosen by the tolerance.");
   }
 
 

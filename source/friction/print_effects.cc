@@ -68,7 +68,7 @@ namespace SlipStep
         throw InputError(
           "there is no effect " + name +
           (name == "compliance" ?
-             ": a diagnosis calls so what Loading/Machine stiffness describes, "
+             ": with this name a diagnosis means Loading/Machine stiffness, "
              "see slipstep parameters Loading" :
              did_you_mean(name, effect_names())));
     for (const auto &item : effect_registry())

@@ -15,9 +15,9 @@ namespace SlipStep
                   "The file to convert, relative to the folder of this map or "
                   "the one on the command line. With wildcards, as in "
                   "runs/*_*N_?.txt, all files whose names match: * stands for "
-                  "any letters, as few as possible, ? for one. The letters "
-                  "that they stand for replace {1}, {2} and so on in sections "
-                  "Test and Constants.");
+                  "any characters, as few as possible, ? for one. What they "
+                  "stand for replaces {1}, {2} and so on in sections Test and "
+                  "Constants.");
       map.declare("Raw file/Delimiter",
                   "auto",
                   Selection("auto|tab|comma|semicolon|blanks"),

@@ -73,7 +73,7 @@ namespace SlipStep
         " of friction (noise alone: " +
         (shrink.is_noise_overrated() ? "less than the " : "") +
         percent_text(shrink.noise_floor) +
-        (shrink.is_noise_overrated() ? " that were taken for it" : "") +
+        (shrink.is_noise_overrated() ? " assumed" : "") +
         (shrink.systematic_before > 0. ?
            "; beyond it " + percent_text(shrink.systematic_before) + " → " +
              percent_text(shrink.systematic_after) :
@@ -255,8 +255,9 @@ namespace SlipStep
         effects.push_back(one.effect);
       return effects.empty() ?
                "" :
-               "; the formula of " + list_text(effects) +
-                 (effects.size() > 1 ? " are" : " is") +
+               std::string(effects.size() > 1 ? "; the formulas of " :
+                                                "; the formula of ") +
+                 list_text(effects) + (effects.size() > 1 ? " are" : " is") +
                  " not quite right: a factor that depends on " +
                  diagnosis.completed[0].covariate +
                  " completes it, and its parameters are valid with that "
@@ -544,7 +545,7 @@ namespace SlipStep
     if (!diagnosis.is_restricted)
       return std::string("no effect of the catalogue ") +
              (is_lost ? "that could be simulated " : "") +
-             (unsure(diagnosis).empty() ? "explains" : "explains surely");
+             (unsure(diagnosis).empty() ? "explains" : "explains for certain");
     return "none of the effects asked for (" + list_text(tried) + ") explains";
   }
 

@@ -226,11 +226,11 @@ namespace SlipStep
           "face. ";
       if (table.has(&ResultRow::has_peak))
         text +=
-          "Peak: where friction is higher than where the slide begins and "
-          "ends. ";
+          "Peak: the largest friction of a slide, if that is higher than at "
+          "its beginning and its end. ";
       if (table.has(&ResultRow::has_dip))
-        text += "Dip: the least friction after a step of speed, where it is "
-                "lower than before and in the end. ";
+        text += "Dip: the least friction after a step of speed, if that is "
+                "lower than before the step and at the end of the slide. ";
       if (table.has(&ResultRow::is_on_the_way))
         text += "At the end: friction there, whether or not it is kinetic. "
                 "It is no kinetic friction where the contact does not slide "

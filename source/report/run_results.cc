@@ -217,7 +217,7 @@ namespace SlipStep
                over.text(ends.second);
       return what + " is " + first + " " + over.text(ends.first) + ", " + last +
              " " + over.text(ends.second) + " and " + from_to(low, high) +
-             " in all";
+             " over all slides";
     }
 
     std::string against(const ResultRows &rows, const Reference &reference)

@@ -236,7 +236,7 @@ namespace SlipStep
                                       "") +
         "), which is itself uncertain by " +
         short_text(first.relative_uncertainty(), 2) +
-        " of it. Runs whose difference is not above that are not shown.";
+        " of it. Runs that differ by no more than this are not shown.";
       return figure_element(
         title, page.svg_of(figure), caption, false, legend_of(curves, is_time));
     }
@@ -365,9 +365,10 @@ namespace SlipStep
       "difference to the reference is not above the "
       "reference's own uncertainty, \"?\" where no limit is "
       "in sight. An order takes three monotone differences. "
-      "The cheapest run for 1 % is the one with the least "
-      "unknowns times steps whose error, and that of all "
-      "finer ones, is at most 1 % with that uncertainty.</p>\n" +
+      "The cheapest run for 1 % is the one with the smallest "
+      "product of unknowns and steps among those whose error, "
+      "with the uncertainty added, is at most 1 %, as it is in "
+      "all finer runs.</p>\n" +
       draw_study(page, curves);
     TableLines lines = {
       table_head("quantity | run | unknowns | steps | CPU time [s] | value | "

@@ -370,7 +370,7 @@ namespace SlipStep
                                  " % of the mean";
     const std::string force = "the force that bends it by some " +
                               rounded_text(100. * moment, 2) + " %";
-    return "the head of the block leans against its foot by " +
+    return "the block leans: its top is shifted relative to its foot by " +
            rounded_text(100. * lean.share, 2) +
            " % of its length, and loads act as on the undeformed block: " +
            (moment <= small_moment ? pressure :

@@ -496,8 +496,8 @@ namespace SlipStep
       "Density rho of the block, with its unit. With it the block has inertia "
       "and carries waves, of speeds sqrt(G/rho) in shear and sqrt((lambda + 2 "
       "G)/rho) in compression; with 0 it is in equilibrium at all times. "
-      "Oscillations are resolved if the time steps are short enough; of those "
-      "far quicker than a step nothing is left after it. 0 to 1 t/mm^3.");
+      "Oscillations are resolved if the time steps are short enough; those far "
+      "quicker than a step die out within it. 0 to 1 t/mm^3.");
     parameters.declare(
       damping_key,
       "0",
@@ -549,9 +549,9 @@ namespace SlipStep
                        "1e-8",
                        Quantity(Dimension::number, 1e-14, 1e-2),
                        "Norm of the unbalanced forces at which Newton's method "
-                       "stops, relative to the contact forces; that of a block "
-                       "far softer than its contact is less. Between 1e-14 and "
-                       "0.01, no unit.");
+                       "stops, relative to the contact forces. A smaller one "
+                       "is used where the block is far softer than its "
+                       "contact. Between 1e-14 and 0.01, no unit.");
     parameters.declare("Block/Newton iterations",
                        "40",
                        Integer(2, 1000),

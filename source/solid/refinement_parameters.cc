@@ -78,10 +78,10 @@ namespace SlipStep
       Quantity(Dimension::number, 1e-6, 1.),
       "Error at which the mesh is fine enough, as estimated from jumps of "
       "stress, from the misfit of tractions and from the border between stick "
-      "and slip, in the norm of the goal and relative to it. A cell is refined "
-      "if its part of the error is larger than if all cells had the same part "
-      "of it. A warning says where limits leave a larger error than the "
-      "tolerance. Between 1e-6 and 1, no unit.");
+      "and slip, in the norm of the goal and relative to that of the solution. "
+      "While the error is larger, cells are refined that have more than an "
+      "equal share of the tolerated one. A warning says so if limits leave a "
+      "larger error than the tolerance. Between 1e-6 and 1, no unit.");
     parameters.declare(
       section + "/Merging share",
       "0.5",

@@ -103,11 +103,12 @@ namespace SlipStep
        "CASE.prm",
        "find the effect that is missing in a case, and add it",
        "Calibrates the case with its measured tests (section \"Calibration\"),\n"
-       "finds where they disagree beyond the noise of replicates, names what is\n"
-       "missing - or says that nothing is, that several effects would do, or\n"
-       "that no effect of the catalogue does - adds it, and shows the gap\n"
-       "shrink, on the contact point and with finite elements (section\n"
-       "\"Diagnosis\"). Writes report.html, diagnosis.json and improved.prm.\n",
+       "finds where simulation and tests disagree by more than replicates do,\n"
+       "names the effect that is missing and adds it - or says that none is,\n"
+       "that several would do, that no effect of the catalogue does, or that\n"
+       "the tests could not show any - and shows the gap shrink, on the\n"
+       "contact point and with finite elements (section \"Diagnosis\").\n"
+       "Writes report.html, diagnosis.json and improved.prm.\n",
        1,
        1,
        "set output variant quiet",

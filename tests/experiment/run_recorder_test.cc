@@ -49,8 +49,9 @@ namespace
 TEST(RunRecorder, TellsOfAPaceThatDoesNotEnd)
 {
   const std::string text = printed_of("subloading, adhesion", 4100, 1e-6);
-  const std::string pace = "note: the last 2000 steps took 1e-06 s each; at "
-                           "that pace the programme takes 1e+09 more; a larger "
+  const std::string pace = "note: the last 2000 steps advanced the time of "
+                           "the programme by 1e-06 s each; at that pace it "
+                           "takes 1e+09 more steps; a larger "
                            "Time stepping/Tolerance";
   ASSERT_TRUE(is_in(pace, text)) << text;
   EXPECT_FALSE(is_in(pace, text.substr(text.find(pace) + 1)));

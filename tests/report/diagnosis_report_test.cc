@@ -66,8 +66,7 @@ TEST(DiagnosisHeadline, ItTellsANoiseThatWasTooLarge)
   Diagnosis diagnosis          = SyntheticDiagnosis::named();
   diagnosis.shrink.noise_floor = 0.0202;
   EXPECT_TRUE(contains(headline(diagnosis),
-                       "(noise alone: less than the 2.02 % that were taken for "
-                       "it; "))
+                       "(noise alone: less than the 2.02 % assumed; "))
     << headline(diagnosis);
   EXPECT_TRUE(contains(page_of(diagnosis), "Dashed: the assumed noise"));
   diagnosis.shrink.fitted_after = 0.019;
@@ -209,7 +208,7 @@ TEST(DiagnosisHeadline, TellsWhatIsTooUnsureForAName)
                            "surely enough to be named (p = 0.033 at best)"))
         << headline(diagnosis);
       EXPECT_EQ(contains(headline(diagnosis),
-                         "no effect of the catalogue explains surely"),
+                         "no effect of the catalogue explains for certain"),
                 has_gap);
       // Surely enough to be fitted, had there been time.
       diagnosis.is_cut_short = true;

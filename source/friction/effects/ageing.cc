@@ -46,8 +46,8 @@ namespace SlipStep
           {{"Renewal length", "L", "0.1", positive(Dimension::length)},
            "slip that renews the contacts"},
           {{"First age", "theta_0", "0", Quantity(Dimension::time, 0.)},
-           "age with which a contact closes that was never loaded: how long it "
-           "had rested before the test"}};
+           "age of a contact that closes for the first time: how long it had "
+           "rested before the test"}};
         info.neutral_settings = {{"Growth", "0"}};
         info.typical_settings = {{"Growth", "0.1"},
                                  {"Time", "0.05 s"},

@@ -91,10 +91,10 @@ namespace SlipStep
                       "Zmitrowicz (1981), Wear 73, 9-39";
         info.parameters = {
           {{"Form", "", "associated", one_of("associated|opposite")},
-           "'associated': slip is normal to the ellipse, and what depends on "
-           "the slip rate has that of the isotropic law, |P V|, which is rho "
-           "times V along the second axis; 'opposite': friction is as the "
-           "ellipse says in the direction of slip, and opposite to it"},
+           "'associated': slip is normal to the ellipse, and the slip rate in "
+           "all effects is |P V|, which is V along the first axis and rho "
+           "times V along the second; 'opposite': friction is opposite to "
+           "slip, and as large as the radius of the ellipse in that direction"},
           {{"Ratio", "rho", "0.8", Quantity(Dimension::number, 0.01, 100.)},
            "ratio of the coefficient along the second axis to that along the "
            "first, which is mu"},

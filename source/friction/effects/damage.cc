@@ -27,7 +27,7 @@ namespace SlipStep
           {{"Change", "w", "0.3", Quantity(Dimension::number, -0.99, 100.)},
            "share by which the strength has changed where the coating is gone"},
           {{"Length", "D_d", "100", positive(Dimension::length)},
-           "slip path after which 63 % of the coating are gone"},
+           "slip path after which 63 % of the coating is gone"},
           {{"Sharpness", "k", "8", Quantity(Dimension::number, 1., 100.)},
            "how suddenly it fails: 1 is a steady loss, as in run_in"}};
         info.neutral_settings = {{"Change", "0"}};

@@ -58,8 +58,8 @@ namespace SlipStep
         info.parameters = {
           {{"Rate", "C", "1000", Quantity(Dimension::per_length, 0., 1e30)},
            "rate at which the core follows the slip: it is there after a few "
-           "1/C. Cycles close the sooner the larger it is, next to the Rate "
-           "of subloading"},
+           "1/C. The larger it is, compared with the Rate of subloading, the "
+           "sooner cycles close"},
           {{"Limit", "chi", "0.9", Quantity(Dimension::number, 0., 0.99, true)},
            "distance of the core from zero after long slip, as a share of the "
            "strength; cycles below a load of about this can close"}};

@@ -26,7 +26,7 @@ namespace SlipStep
            "share by which the strength has changed after long sliding, "
            "negative if it falls"},
           {{"Length", "D_w", "100", positive(Dimension::length)},
-           "slip path after which 63 % of the change are made"}};
+           "slip path after which 63 % of the change has taken place"}};
         info.neutral_settings = {{"Change", "0"}};
         info.typical_settings = {{"Change", "-0.4"}, {"Length", "0.02 mm"}};
         info.search       = {"slow drift with the path, no recovery", search};

@@ -48,8 +48,8 @@ namespace SlipStep
           {{"Slip length", "D_c", "0.1", positive(Dimension::length)},
            "slip over which the state approaches its steady value"},
           {{"First state", "theta_0", "0", Quantity(Dimension::time, 0.)},
-           "state with which a contact closes that was never loaded, of what it "
-           "met before the test; 0 stands for t_0"}};
+           "state of a contact that closes for the first time, as left by what "
+           "it met before the test; 0 stands for t_0"}};
         info.neutral_settings = {{"Growth", "0"}};
         info.typical_settings = {{"Growth", "0.1"},
                                  {"Time", "0.05 s"},

@@ -59,11 +59,11 @@ namespace SlipStep
           {{"Second sine", "s_2", "0", share},
            "share of the amplitude that a wave of half the length has"},
           {{"Second cosine", "c_2", "0", share},
-           "the same, a quarter of it ahead"},
+           "the same of a wave that is a quarter of its length ahead"},
           {{"Third sine", "s_3", "0", share},
            "share of the amplitude that a wave of a third of the length has"},
           {{"Third cosine", "c_3", "0", share},
-           "the same, a quarter of it ahead"}};
+           "the same of a wave that is a quarter of its length ahead"}};
         info.neutral_settings   = {{"Amplitude", "0"}};
         info.typical_settings   = {{"Amplitude", "0.3"},
                                    {"Wavelength", "0.1 mm"},

@@ -32,7 +32,7 @@ namespace SlipStep
                           "Carreau (1972), Trans. Soc. Rheol. 16, 99-127";
         info.parameters = {
           {{"Drag", "c_v", "0.01", Quantity(Dimension::drag, 0.)},
-           "strength per slip rate, of a slow one"},
+           "strength per slip rate at low slip rates"},
           {{"Exponent", "n_v", "1", Quantity(Dimension::number, 0., 5.)},
            "power of the slip rate far above Speed: 1 for a Newtonian film, "
            "less for one that thins with shear"},
