@@ -15,8 +15,10 @@ namespace SlipStep
   {
     // Halves, and in the last round what is left.
     const std::size_t last = std::max(1u, workspace.most_effects) - 1;
-    return workspace.level *
-           std::pow(0.5, std::min(round, last) + (round < last ? 1. : 0.));
+    const double      share =
+      std::pow(0.5, std::min(round, last) + (round < last ? 1. : 0.));
+    const double least = 1. / (workspace.null_draws.rows() + 1.);
+    return std::max(share * level_of_names(workspace.level), least);
   }
 
 

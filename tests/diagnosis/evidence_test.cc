@@ -21,7 +21,7 @@ namespace
             {},
             {},
             {},
-            RowMatrix(),
+            RowMatrix(999, 0),
             0.04,
             most_effects,
             0,
@@ -58,10 +58,15 @@ TEST(Evidence, RoundsSpendTheLevelOnce)
                         level_of_round(workspace, round - 1));
             }
         }
-      EXPECT_NEAR(sum, 0.04, 1e-15);
+      EXPECT_NEAR(sum, 0.02, 1e-15);
     }
-  EXPECT_DOUBLE_EQ(level_of_round(workspace_for(4), 0), 0.02);
-  EXPECT_DOUBLE_EQ(level_of_round(workspace_for(4), 3), 0.005);
+  EXPECT_DOUBLE_EQ(level_of_round(workspace_for(4), 0), 0.01);
+  EXPECT_DOUBLE_EQ(level_of_round(workspace_for(4), 2), 0.0025);
+  // What draws cannot resolve would never be reached.
+  Workspace few = workspace_for(4);
+  few.null_draws.resize(299, 0);
+  EXPECT_DOUBLE_EQ(level_of_round(few, 1), 0.005);
+  EXPECT_DOUBLE_EQ(level_of_round(few, 3), 1. / 300.);
 }
 
 

@@ -10,8 +10,9 @@
 
 namespace SlipStep
 {
-  /// What may be spent of Diagnosis/Level on the effect of a round, counted
-  /// from 0: halves of what is left, so that all rounds together spend it once.
+  /// What may be spent of level_of_names() on the effect of a round, counted
+  /// from 0: halves of what is left, so that all rounds together spend it once;
+  /// but no less than the draws resolve.
   double level_of_round(const Workspace &workspace, const std::size_t round);
 
   /// Whether these tests can tell an effect, and chance among all candidates
