@@ -150,11 +150,9 @@ namespace SlipStep
 
 
   template <int dim>
-  FaceProbes<dim>::FaceProbes(const BlockParameters                 &parameters,
-                              const Programme                       &programme,
-                              const std::vector<QuantityOfInterest> &quantities)
+  FaceProbes<dim>::FaceProbes(const BlockParameters &parameters,
+                              const Programme       &programme)
     : parameters(parameters)
-    , probes(probes_among(quantities))
   {
     for (const Segment &segment : programme.segments())
       {
@@ -167,20 +165,6 @@ namespace SlipStep
         slides_backward = motion[sliding_axis] < 0.;
         break;
       }
-  }
-
-
-
-  template <int dim>
-  std::vector<double>
-  FaceProbes<dim>::values(const ContactFace<dim> &contact,
-                          const MPI_Comm         &communicator) const
-  {
-    std::vector<double> result;
-    for (const QuantityOfInterest &probe : probes)
-      if (probe.is_on_contact_face())
-        result.push_back(value(probe, contact, communicator));
-    return result;
   }
 
 

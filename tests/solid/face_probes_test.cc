@@ -5,7 +5,7 @@
 
 #include "block_test_tools.h"
 
-#include <slipstep/solid/face_probes.h>
+#include <slipstep/solid/block_probes.h>
 
 #include <gtest/gtest.h>
 
@@ -29,10 +29,10 @@ namespace
     const Programme     programme = parse_programme(parameters);
     const auto          result    = run_block_case<dim>(
       parameters, MPI_COMM_SELF, [&](const Block<dim> &block) {
-        const FaceProbes<dim> probes(BlockParameters(parameters, programme),
-                                     programme,
-                                     parse_quantities(parameters, programme));
-        values = probes.values(block.state().contact_face, MPI_COMM_SELF);
+        const BlockProbes<dim> probes(BlockParameters(parameters, programme),
+                                      programme,
+                                      parse_quantities(parameters, programme));
+        values = probes.values(block, MPI_COMM_SELF);
       });
     EXPECT_EQ(result.failure, "");
     return values;
@@ -67,15 +67,14 @@ TEST(FaceProbes, pressure_is_that_of_the_solution)
                                  "pressure at (" +
                                    std::to_string(point.position[0]) + " mm, " +
                                    std::to_string(point.position[1]) + " mm)");
-              const Parameters    with_point = make_parameters(there);
-              const FaceProbes<3> probes(BlockParameters(parameters, programme),
-                                         programme,
-                                         parse_quantities(with_point,
-                                                          programme));
+              const Parameters     with_point = make_parameters(there);
+              const BlockProbes<3> probes(
+                BlockParameters(parameters, programme),
+                programme,
+                parse_quantities(with_point, programme));
               const double pressure = point.point.committed().normal_traction;
               // The text has six digits.
-              EXPECT_NEAR(probes.values(block.state().contact_face,
-                                        MPI_COMM_SELF)[0],
+              EXPECT_NEAR(probes.values(block, MPI_COMM_SELF)[0],
                           pressure,
                           1e-4);
               least   = std::min(least, pressure);
@@ -122,13 +121,12 @@ TEST(FaceProbes, slip_front_of_a_strip)
       const Programme  programme  = parse_programme(parameters);
       const auto       result     = run_block_case<2>(
         parameters, MPI_COMM_SELF, [&](const Block<2> &block) {
-          const FaceProbes<2> probes(BlockParameters(parameters, programme),
-                                     programme,
-                                     parse_quantities(parameters, programme));
-          const double        front =
-            probes.values(block.state().contact_face, MPI_COMM_SELF)[0];
-          const double length = forward ? L - front : front;
-          double       force  = 0.;
+          const BlockProbes<2> probes(BlockParameters(parameters, programme),
+                                      programme,
+                                      parse_quantities(parameters, programme));
+          const double         front = probes.values(block, MPI_COMM_SELF)[0];
+          const double         length = forward ? L - front : front;
+          double               force  = 0.;
           for (const auto &face : block.state().contact_face.cell_faces())
             for (const auto &point : face.points)
               force +=
@@ -173,10 +171,12 @@ TEST(FaceProbes, slip_front_of_a_curve)
           contact.set_states(i, states);
         }
       const FaceProbes<2> probes(BlockParameters(parameters, programme),
-                                 programme,
-                                 parse_quantities(parameters, programme));
-      error = std::abs(probes.values(contact, MPI_COMM_SELF)[0] - 6.3 -
-                       std::atanh(0.4));
+                                 programme);
+      const double        front =
+        probes.value(parse_quantities(parameters, programme)[0],
+                     contact,
+                     MPI_COMM_SELF);
+      error = std::abs(front - 6.3 - std::atanh(0.4));
     });
     return error;
   };

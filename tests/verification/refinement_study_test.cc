@@ -5,7 +5,7 @@
 
 #include "../solid/block_test_tools.h"
 
-#include <slipstep/solid/face_probes.h>
+#include <slipstep/solid/block_probes.h>
 
 #include <gtest/gtest.h>
 
@@ -32,11 +32,10 @@ namespace
     OutcomeOfStudy  outcome;
     const auto      result =
       run_block_case<2>(parameters, MPI_COMM_SELF, [&](const Block<2> &block) {
-        const FaceProbes<2> probes(BlockParameters(parameters, programme),
-                                   programme,
-                                   parse_quantities(parameters, programme));
-        outcome.edge_pressure =
-          probes.values(block.state().contact_face, MPI_COMM_SELF)[0];
+        const BlockProbes<2> probes(BlockParameters(parameters, programme),
+                                    programme,
+                                    parse_quantities(parameters, programme));
+        outcome.edge_pressure = probes.values(block, MPI_COMM_SELF)[0];
       });
     EXPECT_EQ(result.failure, "");
     outcome.n_unknowns = result.summary.dofs;
@@ -117,10 +116,10 @@ TEST(RefinementStudy, edges_and_corners_in_space)
     const Programme programme = parse_programme(parameters);
     const auto      outcome =
       run_block_case<3>(parameters, MPI_COMM_SELF, [&](const Block<3> &block) {
-        result = FaceProbes<3>(BlockParameters(parameters, programme),
-                               programme,
-                               parse_quantities(parameters, programme))
-                   .values(block.state().contact_face, MPI_COMM_SELF);
+        result = BlockProbes<3>(BlockParameters(parameters, programme),
+                                programme,
+                                parse_quantities(parameters, programme))
+                   .values(block, MPI_COMM_SELF);
       });
     EXPECT_EQ(outcome.failure, "");
     result.push_back(outcome.summary.dofs);

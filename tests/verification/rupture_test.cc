@@ -5,7 +5,7 @@
 
 #include "../solid/block_test_tools.h"
 
-#include <slipstep/solid/face_probes.h>
+#include <slipstep/solid/block_probes.h>
 
 #include <gtest/gtest.h>
 
@@ -73,9 +73,9 @@ namespace
                    programme,
                    StepControl(parameters, programme, law),
                    MPI_COMM_SELF);
-    const FaceProbes<2>   probes(block_parameters,
-                               programme,
-                               parse_quantities(parameters, programme));
+    const BlockProbes<2>  probes(block_parameters,
+                                programme,
+                                parse_quantities(parameters, programme));
 
     Rupture    result;
     Passage    a(patch + 4.), b(patch + 14.), c(120.), d(160.);
@@ -83,8 +83,7 @@ namespace
     HistoryRow last;
     block.run(nullptr, [&](const HistoryRow &row) {
       const double front =
-        block_parameters.size[0] / 2. -
-        probes.values(block.state().contact_face, MPI_COMM_SELF)[0];
+        block_parameters.size[0] / 2. - probes.values(block, MPI_COMM_SELF)[0];
       if (std::isfinite(front))
         for (Passage *passage : {&a, &b, &c, &d})
           passage->see(front, row.time);

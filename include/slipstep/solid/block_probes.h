@@ -28,7 +28,7 @@ namespace SlipStep
                 const Programme                       &programme,
                 const std::vector<QuantityOfInterest> &quantities)
       : probes(probes_among(quantities))
-      , on_contact_face(parameters, programme, quantities)
+      , on_contact_face(parameters, programme)
     {}
 
     /// Values in the order of probes_among(), for the step just accepted; the

@@ -29,20 +29,13 @@ namespace SlipStep
   class FaceProbes
   {
   public:
-    FaceProbes(const BlockParameters                 &parameters,
-               const Programme                       &programme,
-               const std::vector<QuantityOfInterest> &quantities);
+    FaceProbes(const BlockParameters &parameters, const Programme &programme);
 
     /// Value of a probe for the committed state of the face; the same on all
     /// ranks, which all take part.
     double value(const QuantityOfInterest &probe,
                  const ContactFace<dim>   &contact,
                  const MPI_Comm           &communicator) const;
-
-    /// Values of those that are on the contact face, in the order of
-    /// probes_among().
-    std::vector<double> values(const ContactFace<dim> &contact,
-                               const MPI_Comm         &communicator) const;
 
   private:
     double pressure(const ContactFace<dim>    &contact,
@@ -58,8 +51,7 @@ namespace SlipStep
                       const double            loading_ratio,
                       const MPI_Comm         &communicator) const;
 
-    const BlockParameters                 parameters;
-    const std::vector<QuantityOfInterest> probes;
+    const BlockParameters parameters;
     /// Of the contact plane, 0 or 1: along which the block slides first.
     unsigned int sliding_axis    = 0;
     bool         slides_backward = false;
