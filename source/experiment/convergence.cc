@@ -96,18 +96,6 @@ namespace SlipStep
 
 
 
-  double observed_order(const double error_1,
-                        const double error_2,
-                        const double h_1,
-                        const double h_2)
-  {
-    const double order =
-      std::log(std::abs(error_1 / error_2)) / std::log(h_1 / h_2);
-    return std::isfinite(order) ? order : no_value;
-  }
-
-
-
   double shown_order(const std::vector<double> &sizes,
                      const std::vector<double> &values,
                      const double               highest)

@@ -63,16 +63,6 @@ TEST(Richardson, says_when_there_is_no_order)
 
 
 
-TEST(ObservedOrder, is_that_of_the_errors)
-{
-  EXPECT_NEAR(observed_order(0.3, 0.3 / 8., 1., 0.5), 3., 1e-12);
-  EXPECT_NEAR(observed_order(0.09, 0.01, 3., 1.), 2., 1e-12);
-  EXPECT_TRUE(std::isnan(observed_order(0.1, 0., 1., 0.5)));
-  EXPECT_TRUE(std::isnan(observed_order(std::nan(""), 1., 1., 0.5)));
-}
-
-
-
 namespace
 {
   const std::vector<double> halved = {1., 0.5, 0.25, 0.125, 0.0625};

@@ -36,13 +36,6 @@ namespace SlipStep
               const std::vector<double> &values,
               const double highest = std::numeric_limits<double>::infinity());
 
-  /// Order p of errors C h^p between two members of a sequence; NaN if
-  /// undefined.
-  double observed_order(const double error_1,
-                        const double error_2,
-                        const double h_1,
-                        const double h_2);
-
   /// A value that others are compared with, and how far it may be from the
   /// limit of its sequence.
   struct ReferenceValue
