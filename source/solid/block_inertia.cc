@@ -146,9 +146,7 @@ namespace SlipStep
     if (energy == 0.)
       return 0.;
 
-    double stress = 0., volume = 1.;
-    for (const Segment &segment : programme.segments())
-      stress = std::max(stress, segment.end.pressure);
+    double stress = programme.largest_pressure(), volume = 1.;
     for (const FaceConditions &face : parameters.faces)
       for (const LoadPart part : {gradual, at_once})
         stress = std::max(stress, face.tractions[part].norm());

@@ -469,9 +469,7 @@ namespace SlipStep
   {
     constexpr double small = 0.01;
 
-    double pressure = 0.;
-    for (const Segment &now : programme.segments())
-      pressure = std::max(pressure, now.end.pressure);
+    const double pressure = programme.largest_pressure();
     const double depth = pressure / contact.friction_law().normal_stiffness();
     const double size =
       *std::min_element(parameters.size.begin(), parameters.size.begin() + dim);
