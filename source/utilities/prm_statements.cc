@@ -8,6 +8,8 @@
 #include <slipstep/utilities/parameter_reader.h>
 #include <slipstep/utilities/text.h>
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include <algorithm>
 #include <fstream>
 #include <sstream>
@@ -78,14 +80,9 @@ namespace SlipStep
     {
       std::ostringstream all;
       all << in.rdbuf();
-      std::string text;
-      bool        is_after_cr = false;
-      for (const char c : all.str())
-        {
-          if (c != '\n' || !is_after_cr)
-            text += c == '\r' ? '\n' : c;
-          is_after_cr = c == '\r';
-        }
+      std::string text = all.str();
+      boost::replace_all(text, "\r\n", "\n");
+      std::replace(text.begin(), text.end(), '\r', '\n');
       return text;
     }
   } // namespace
