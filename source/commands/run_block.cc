@@ -75,11 +75,8 @@ namespace SlipStep
                      Machine::probes(block.state().drive.state(), row.pressure))
                   with_probes.probes.push_back(value);
               // A full disk hits one rank only: all must stop together.
-              const std::string failure = attempt_together(communicator, [&]() {
-                recorder.record(with_probes);
-              });
-              if (!failure.empty())
-                throw RunError(failure);
+              do_together(communicator,
+                          [&]() { recorder.record(with_probes); });
             },
             [&]() { checkpoints.write_if_due(block, output, recorder); },
             [&]() { return checkpoints.cannot_wait(); });

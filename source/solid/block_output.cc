@@ -298,7 +298,7 @@ namespace SlipStep
                                        const Vector           &displacement,
                                        const ContactFace<dim> &contact) const
   {
-    const std::string failure = attempt_together(communicator, [&]() {
+    do_together(communicator, [&]() {
       write_surface(folder / name,
                     parameters,
                     dof_handler,
@@ -306,8 +306,6 @@ namespace SlipStep
                     contact,
                     communicator);
     });
-    if (!failure.empty())
-      throw RunError(failure);
   }
 
 
@@ -399,7 +397,7 @@ namespace SlipStep
   void
   BlockOutput<dim>::write_mesh_changes(const std::vector<MeshChange> &changes)
   {
-    const auto write_rows = [&]() {
+    do_together(communicator, [&]() {
       if (rank != 0)
         return;
       const std::filesystem::path file = folder / "refinement.csv";
@@ -426,10 +424,7 @@ namespace SlipStep
       --n_final_changes;
       if (!mesh_changes.flush())
         throw write_failure(file);
-    };
-    const std::string failure = attempt_together(communicator, write_rows);
-    if (!failure.empty())
-      throw RunError(failure);
+    });
   }
 
 

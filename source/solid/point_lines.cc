@@ -144,13 +144,10 @@ namespace SlipStep
           }
       }
 
-    const std::filesystem::path file    = folder / "lines.csv";
-    const std::string           failure = attempt_together(communicator, [&]() {
+    do_together(communicator, [&]() {
       if (Utilities::MPI::this_mpi_process(communicator) == 0)
-        write_file(file, text.str());
+        write_file(folder / "lines.csv", text.str());
     });
-    if (!failure.empty())
-      throw RunError(failure);
   }
 
 

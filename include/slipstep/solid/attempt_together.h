@@ -42,6 +42,16 @@ namespace SlipStep
       }
     return agreed(reason, communicator);
   }
+
+  /// The same, for what cannot go on after a failure.
+  /// @throws RunError on all ranks if one of them did
+  template <class Work>
+  void do_together(const MPI_Comm &communicator, const Work &work)
+  {
+    const std::string failure = attempt_together(communicator, work);
+    if (!failure.empty())
+      throw RunError(failure);
+  }
 } // namespace SlipStep
 
 #endif
