@@ -21,8 +21,6 @@
 
 #include <boost/algorithm/string/join.hpp>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
@@ -484,14 +482,12 @@ namespace SlipStep
       parameters.reject("Loading/Machine stiffness",
                         "the machine moves the driven faces of the block, but "
                         "no face has 'drive'");
-    const double installed = 1e-6 * sysconf(_SC_PHYS_PAGES) *
-                             static_cast<double>(sysconf(_SC_PAGESIZE));
-    if (block.least_memory() <= n_processes * installed)
+    if (block.least_memory() <= n_processes * installed_memory())
       return;
     std::ostringstream message;
     message << std::setprecision(2) << block.n_unknowns()
             << " unknowns need at least " << block.least_memory() / 1e3
-            << " GB of memory, more than the " << installed / 1e3
+            << " GB of memory, more than the " << installed_memory() / 1e3
             << " GB of this machine; take fewer cells";
     parameters.reject(block.key_of_cells(), message.str());
   }

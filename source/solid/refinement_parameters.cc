@@ -40,15 +40,15 @@ namespace SlipStep
                             " 2'");
       return levels;
     }
-
-
-
-    double installed_memory()
-    {
-      return 1e-6 * sysconf(_SC_PHYS_PAGES) *
-             static_cast<double>(sysconf(_SC_PAGESIZE));
-    }
   } // namespace
+
+
+
+  double installed_memory()
+  {
+    return 1e-6 * sysconf(_SC_PHYS_PAGES) *
+           static_cast<double>(sysconf(_SC_PAGESIZE));
+  }
 
 
 

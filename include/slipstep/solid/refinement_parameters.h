@@ -17,6 +17,9 @@ namespace SlipStep
     adaptive ///< where the solution asks for it, during the run
   };
 
+  /// Memory of this machine [MB].
+  double installed_memory();
+
   /// What an adaptive mesh is to be good for, see mesh_goal.h.
   enum class MeshGoal : int;
 
