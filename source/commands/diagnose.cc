@@ -8,7 +8,9 @@
 #include <slipstep/commands/sweep.h>
 #include <slipstep/commands/case.h>
 #include <slipstep/friction/law.h>
+#include <slipstep/measured_data/friction_axes.h>
 #include <slipstep/measured_data/measured_test.h>
+#include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
@@ -158,29 +160,17 @@ namespace SlipStep
       // perhaps later.
       const double begin =
         test.start_time - read_measured_test(test.file).time.front();
-      Curves      result;
-      std::size_t i = 1;
+      std::vector<double> times;
       for (const double since_begin : test.time)
-        {
-          const double time = begin + since_begin;
-          while (i + 1 < history.time.size() && history.time[i] < time)
-            ++i;
-          const double share =
-            std::clamp((time - history.time[i - 1]) /
-                         (history.time[i] - history.time[i - 1]),
-                       0.,
-                       1.);
-          const auto between = [&](const std::vector<double> &values) {
-            return (1. - share) * values[i - 1] + share * values[i];
-          };
-          const double x = between(history.friction);
-          const double y =
-            history.friction_y.empty() ? 0. : between(history.friction_y);
-          result.x.push_back(
-            test.measured_y.empty() ? test.cosine * x + test.sine * y : x);
-          if (!test.measured_y.empty())
-            result.y.push_back(y);
-        }
+        times.push_back(begin + since_begin);
+      Curves result;
+      result.x = at_times(history.time, history.friction, times);
+      result.y.resize(times.size(), 0.);
+      if (!history.friction_y.empty())
+        result.y = at_times(history.time, history.friction_y, times);
+      if (test.measured_y.empty())
+        result = {FrictionAxis{test.cosine, test.sine}.of(result.x, result.y),
+                  {}};
       return result;
     }
 

@@ -319,19 +319,6 @@ namespace SlipStep
   std::vector<double> Replay::at(const std::vector<double> &curve,
                                  const std::vector<double> &wanted_times) const
   {
-    std::vector<double> result;
-    result.reserve(wanted_times.size());
-    std::size_t i = 1;
-    for (const double time : wanted_times)
-      {
-        while (i + 1 < time_list.size() && time_list[i] < time)
-          ++i;
-        const double length = time_list[i] - time_list[i - 1];
-        const double share =
-          length > 0. ? std::clamp((time - time_list[i - 1]) / length, 0., 1.) :
-                        1.;
-        result.push_back((1. - share) * curve[i - 1] + share * curve[i]);
-      }
-    return result;
+    return at_times(time_list, curve, wanted_times);
   }
 } // namespace SlipStep

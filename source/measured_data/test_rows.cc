@@ -113,6 +113,29 @@ namespace SlipStep
 
 
 
+  std::vector<double> at_times(const std::vector<double> &times,
+                               const std::vector<double> &values,
+                               const std::vector<double> &wanted_times)
+  {
+    std::vector<double> result;
+    result.reserve(wanted_times.size());
+    std::size_t i = 0;
+    for (const double time : wanted_times)
+      {
+        while (i + 1 < times.size() && times[i] < time)
+          ++i;
+        const std::size_t before = i == 0 ? 0 : i - 1;
+        const double      length = times[i] - times[before];
+        const double      share =
+          length > 0. ? std::clamp((time - times[before]) / length, 0., 1.) :
+                             1.;
+        result.push_back((1. - share) * values[before] + share * values[i]);
+      }
+    return result;
+  }
+
+
+
   double median(std::vector<double> values)
   {
     if (values.empty())

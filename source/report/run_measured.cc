@@ -163,48 +163,33 @@ namespace SlipStep
 
 
 
-    /// Friction of a run along an axis at a time, NaN outside.
-    double friction_at(const RunResults   &run,
-                       const FrictionAxis &axis,
-                       const double        time)
-    {
-      const auto &rows  = run.history;
-      const auto  after = std::lower_bound(rows.begin(),
-                                          rows.end(),
-                                          time,
-                                          [](const HistoryRow &row, double t) {
-                                            return row.time < t;
-                                          });
-      if (after == rows.end() || (after == rows.begin() && after->time > time))
-        return std::numeric_limits<double>::quiet_NaN();
-      const double next = axis.of(after->friction, after->friction_y);
-      if (after == rows.begin())
-        return next;
-      const HistoryRow &before = *(after - 1);
-      const double share = (time - before.time) / (after->time - before.time);
-      const double last  = axis.of(before.friction, before.friction_y);
-      return last + share * (next - last);
-    }
-
-
-
     /// By how much run and test differ, in words; "" if no time is common.
     std::string difference_in_words(const MeasuredBeside &measured,
                                     const RunResults     &run,
                                     const std::string    &name)
     {
+      if (run.history.empty())
+        return "";
+      std::vector<double> run_times, run_friction, times;
+      for (const HistoryRow &row : run.history)
+        {
+          run_times.push_back(row.time);
+          run_friction.push_back(
+            measured.axis.of(row.friction, row.friction_y));
+        }
+      for (const double time : measured.test.time)
+        times.push_back(measured.start_time + time - measured.test.time[0]);
+      const std::vector<double> simulated =
+        at_times(run_times, run_friction, times);
       double      squares = 0., friction = 0.;
       std::size_t n = 0;
-      for (std::size_t i = 0; i < measured.test.time.size(); ++i)
+      for (std::size_t i = 0; i < times.size(); ++i)
         {
-          const double simulated =
-            friction_at(run,
-                        measured.axis,
-                        measured.start_time + measured.test.time[i] -
-                          measured.test.time[0]);
-          if (!std::isfinite(simulated - measured.test.friction[i]))
+          const double difference = simulated[i] - measured.test.friction[i];
+          if (times[i] < run_times.front() || times[i] > run_times.back() ||
+              !std::isfinite(difference))
             continue;
-          squares += std::pow(simulated - measured.test.friction[i], 2);
+          squares += difference * difference;
           friction += std::pow(measured.test.friction[i], 2);
           ++n;
         }

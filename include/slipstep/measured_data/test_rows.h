@@ -96,6 +96,12 @@ namespace SlipStep
     return result;
   }
 
+  /// A curve through values at increasing times, by straight lines at other
+  /// ones [s], which increase, too; outside, its first and last value.
+  std::vector<double> at_times(const std::vector<double> &times,
+                               const std::vector<double> &values,
+                               const std::vector<double> &wanted_times);
+
   /// The upper one of an even number; 0 for none.
   double median(std::vector<double> values);
 
