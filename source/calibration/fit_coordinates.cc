@@ -52,18 +52,11 @@ namespace SlipStep
           return derived.name == lower || derived.name == upper;
         }))
       return;
-    const auto number = [&](const std::string &path) {
-      return std::find_if(fitted.begin(),
-                          fitted.end(),
-                          [&](const FitParameter &parameter) {
-                            return parameter.path == path;
-                          }) -
-             fitted.begin();
-    };
-    const std::size_t i = number(lower), j = number(upper);
-    const auto value = [&](const std::size_t n, const std::string &path) {
+    const std::size_t i = place_among(fitted, lower);
+    const std::size_t j = place_among(fitted, upper);
+    const auto value    = [&](const std::size_t n, const std::string &path) {
       return n < fitted.size() ? fitted[n].from_scaled(scaled[n]) :
-                                 campaign.parameters.number(path);
+                                    campaign.parameters.number(path);
     };
     const bool lower_is_free = i < fitted.size() && is_free[i];
     const bool upper_is_free = j < fitted.size() && is_free[j];

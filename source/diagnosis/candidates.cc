@@ -13,22 +13,13 @@ namespace SlipStep
 {
   namespace
   {
-    bool lists(const std::vector<FitParameter> &fitted, const std::string &path)
-    {
-      return any_of(fitted, [&](const FitParameter &parameter) {
-        return parameter.path == path;
-      });
-    }
-
-
-
     bool is_fitted(const std::string               &path,
                    const Circumstances             &now,
                    const std::vector<FitParameter> &fitted)
     {
       return now.parameters.text("Calibration/Parameters").find(path + " ") !=
                std::string::npos ||
-             lists(fitted, path);
+             place_among(fitted, path) < fitted.size();
     }
 
 
@@ -390,7 +381,7 @@ namespace SlipStep
       for (const auto &[path, text] : formula.texts)
         parameters.set(path, text, "diagnosis");
       for (const CandidateParameter &parameter : formula.parameters)
-        if (!lists(result.fitted, parameter.path))
+        if (place_among(result.fitted, parameter.path) == result.fitted.size())
           result.fitted.push_back(
             make_fit_parameter(parameters,
                                parameter.path,

@@ -147,10 +147,7 @@ namespace SlipStep
       remove_erase_if(paths, [&](const std::string &path) {
         return dynamic_cast<const Quantity *>(
                  start.entry(path).pattern.get()) == nullptr ||
-               any_of(campaign.fitted,
-                      [&](const FitParameter &one) {
-                        return one.path == path;
-                      }) ||
+               place_among(campaign.fitted, path) < campaign.fitted.size() ||
                any_of(campaign.derived,
                       [&](const Derived &one) { return one.name == path; });
       });

@@ -3,7 +3,6 @@
 #include <slipstep/diagnosis/next_test.h>
 #include <slipstep/diagnosis/rules.h>
 #include <slipstep/measured_data/test_rows.h>
-#include <slipstep/utilities/lists.h>
 
 #include <Eigen/Dense>
 
@@ -205,10 +204,8 @@ namespace SlipStep
         // again.
         std::vector<bool> held;
         for (const FitParameter &parameter : model.campaign->fitted)
-          held.push_back(
-            any_of(formula.parameters, [&](const CandidateParameter &own) {
-              return own.path == parameter.path;
-            }));
+          held.push_back(place_among(formula.parameters, parameter.path) <
+                         formula.parameters.size());
         if (workspace.comparison.fit(model, 1., {}, held))
           return model;
         return {};

@@ -44,6 +44,18 @@ namespace SlipStep
     std::string name;
   };
 
+  /// Where a path is among parameters that are or may be fitted; their number
+  /// if it is not.
+  template <typename Parameter>
+  std::size_t place_among(const std::vector<Parameter> &parameters,
+                          const std::string            &path)
+  {
+    std::size_t i = 0;
+    while (i < parameters.size() && parameters[i].path != path)
+      ++i;
+    return i;
+  }
+
   /// Whether a scaled value is one of the bounds, but for round-off.
   inline bool is_on_bound(const double scaled)
   {
