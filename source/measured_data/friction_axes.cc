@@ -82,16 +82,6 @@ namespace SlipStep
 
 
 
-    std::vector<double> bends_of(const std::vector<double> &values)
-    {
-      std::vector<double> bends;
-      for (std::size_t i = 1; i + 1 < values.size(); ++i)
-        bends.push_back(values[i - 1] - 2. * values[i] + values[i + 1]);
-      return bends;
-    }
-
-
-
     /// Of second differences along x and y, which are noise for the most part.
     struct Covariance
     {

@@ -258,19 +258,26 @@ namespace SlipStep
 
 
 
+  std::vector<double> bends_of(const std::vector<double> &values)
+  {
+    std::vector<double> bends;
+    for (std::size_t i = 1; i + 1 < values.size(); ++i)
+      bends.push_back(values[i - 1] - 2. * values[i] + values[i + 1]);
+    return bends;
+  }
+
+
+
   double noise_level(const std::vector<double> &values)
   {
     // Second differences leave what a signal bends within three rows, fourth
     // ones hardly any of it: where they say far less, it is signal.
     constexpr double far_less = 0.5;
 
-    std::vector<double> bends, fourth;
-    for (std::size_t i = 1; i + 1 < values.size(); ++i)
-      bends.push_back(values[i - 1] - 2. * values[i] + values[i + 1]);
-    for (std::size_t i = 1; i + 1 < bends.size(); ++i)
-      fourth.push_back(std::abs(bends[i - 1] - 2. * bends[i] + bends[i + 1]));
-    for (double &bend : bends)
-      bend = std::abs(bend);
+    std::vector<double> bends = bends_of(values), fourth = bends_of(bends);
+    for (std::vector<double> *const differences : {&bends, &fourth})
+      for (double &difference : *differences)
+        difference = std::abs(difference);
 
     // For normal deviates the median of the absolute value is 0.6745 sigma; the
     // second difference has the variance 6 sigma^2, the fourth 70 sigma^2.
@@ -376,9 +383,8 @@ namespace SlipStep
 
     // Of what scatters by s, rounding makes s^2 + step^2 / 12.
     double squares = 0., n = 0.;
-    for (std::size_t i = 1; i + 1 < values.size(); ++i)
+    for (const double bend : bends_of(values))
       {
-        const double bend = values[i - 1] - 2. * values[i] + values[i + 1];
         if (std::abs(bend) > farthest * step)
           continue;
         squares += bend * bend / 6.;

@@ -28,6 +28,9 @@ namespace SlipStep
   /// turns and ends count in full.
   double path_of(const MeasuredTest &test);
 
+  /// Second differences of a series.
+  std::vector<double> bends_of(const std::vector<double> &values);
+
   /// Standard deviation of the noise in a series: robust, from its second
   /// differences, and not less than that of rounding to the recorded digits.
   double noise_level(const std::vector<double> &values);
