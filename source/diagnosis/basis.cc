@@ -59,10 +59,7 @@ namespace SlipStep
         for (unsigned int degree = 1; degree <= 3; ++degree)
           factor(covariate.name, [&](const Eigen::Index i) {
             const double t = 2. * (x(i) - low) / (high - low) - 1.;
-            return !std::isfinite(x(i)) ? 0. :
-                   degree == 1          ? t :
-                   degree == 2          ? 1.5 * t * t - 0.5 :
-                                          t * (2.5 * t * t - 1.5);
+            return std::isfinite(x(i)) ? std::legendre(degree, t) : 0.;
           });
       }
 
