@@ -8,6 +8,7 @@
 #include <slipstep/report/diagnosis_report.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/paths.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <sstream>
@@ -57,9 +58,7 @@ namespace SlipStep
     {
       std::string result;
       for (const std::string &paragraph : paragraphs)
-        for (const std::string &line :
-             dealii::Utilities::break_text_into_lines(paragraph, 76))
-          result += "# " + line + '\n';
+        result += commented(paragraph);
       return result + (paragraphs.empty() ? "" : "\n");
     }
 

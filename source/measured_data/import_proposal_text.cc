@@ -7,7 +7,6 @@
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -24,26 +23,6 @@ namespace SlipStep
         [](const char c) { return c == '#' || c == '*'; },
         '?');
       return name;
-    }
-
-
-
-    // Wrapped, each line begun with the mark.
-    std::string comment(const std::string &text, const std::string &mark)
-    {
-      constexpr std::size_t width = 78;
-      std::istringstream    words(text);
-      std::string           lines, line = mark, word;
-      while (words >> word)
-        {
-          if (line.size() + 1 + word.size() > width && line != mark)
-            {
-              lines += line + '\n';
-              line = mark;
-            }
-          line += ' ' + word;
-        }
-      return lines + line + '\n';
     }
   } // namespace
 
@@ -139,20 +118,19 @@ namespace SlipStep
 
   std::string ImportProposal::text() const
   {
-    std::string text = comment(
+    std::string text = commented(
       "A proposal for " + file.filename().string() +
-        ": every line was guessed, with the reason above it. Look "
-        "through it" +
-        (is_complete() ? "" : ", complete the lines that begin with '# set'") +
-        ", then: slipstep import THIS_FILE",
-      "#");
+      ": every line was guessed, with the reason above it. Look "
+      "through it" +
+      (is_complete() ? "" : ", complete the lines that begin with '# set'") +
+      ", then: slipstep import THIS_FILE");
     for (const std::string name :
          {"Raw file", "Columns", "Constants", "Convention", "Test"})
       {
         std::string lines;
         for (const ImportGuess &guess : guesses)
           if (guess.path.rfind(name + "/", 0) == 0)
-            lines += comment(guess.reason, "  #") +
+            lines += commented(guess.reason, "  ") +
                      (guess.is_open ? "  # set " : "  set ") +
                      guess.path.substr(name.size() + 1) + " = " + guess.value +
                      '\n';

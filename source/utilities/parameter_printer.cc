@@ -3,11 +3,10 @@
 
 #include <slipstep/utilities/parameter_printer.h>
 #include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/variants.h>
 
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
 
 namespace SlipStep
 {
@@ -38,20 +37,6 @@ namespace SlipStep
 
 
 
-    void print_comment(std::ostream      &out,
-                       const std::string &indent,
-                       const std::string &text)
-    {
-      const unsigned int width =
-        78 -
-        static_cast<unsigned int>(std::min<std::size_t>(indent.size(), 40));
-      for (const std::string &line :
-           dealii::Utilities::break_text_into_lines(text, width))
-        out << indent << "# " << line << '\n';
-    }
-
-
-
     void print_setting(std::ostream      &out,
                        const std::string &indent,
                        const std::string &key,
@@ -75,10 +60,10 @@ namespace SlipStep
           if (explains)
             {
               out << (is_first ? "" : "\n");
-              print_comment(out,
-                            indent,
-                            entry.documentation + " [" +
-                              allowed_in_words(*entry.pattern) + "]");
+              out << commented(entry.documentation + " [" +
+                                 allowed_in_words(*entry.pattern) + "]",
+                               indent,
+                               80);
             }
           is_first = false;
           print_setting(out, indent, name_of_key(entry.path), value);

@@ -195,6 +195,19 @@ namespace SlipStep
 
 
 
+  std::string commented(const std::string &text,
+                        const std::string &indent,
+                        const std::size_t  most)
+  {
+    std::string lines;
+    for (const std::string &line : dealii::Utilities::break_text_into_lines(
+           text, most - 2 - std::min<std::size_t>(indent.size(), 40)))
+      lines += indent + "# " + line + '\n';
+    return lines;
+  }
+
+
+
   // Of a name of 5000 letters the ends are enough.
   std::string readable(const std::string &message)
   {

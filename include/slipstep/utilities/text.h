@@ -73,6 +73,12 @@ namespace SlipStep
   std::string essential_lines(const std::string &text,
                               const unsigned int n_lines);
 
+  /// Remarks for a file: lines of at most so many bytes, but of deep indents,
+  /// each begun with "# ".
+  std::string commented(const std::string &text,
+                        const std::string &indent = "",
+                        const std::size_t  most   = 78);
+
   /// A message whose lines have a length that can be read.
   std::string readable(const std::string &message);
 
