@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/utilities/encoding.h>
 
+#include <boost/locale/utf.hpp>
+
 namespace SlipStep
 {
   namespace
@@ -9,23 +11,10 @@ namespace SlipStep
     std::size_t length_of_character(const std::string &text,
                                     const std::size_t  begin)
     {
-      const unsigned char first = text[begin];
-      const unsigned char second =
-        begin + 1 < text.size() ? text[begin + 1] : '\0';
-      // The last four: longer than they need to be, of UTF-16, beyond all.
-      if (first >= 0xF5 || (first & 0xC0) == 0x80 || first == 0xC0 ||
-          first == 0xC1 || (first == 0xE0 && second < 0xA0) ||
-          (first == 0xED && second >= 0xA0) ||
-          (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90))
-        return 0;
-      const std::size_t length = first >= 0xF0 ? 4 :
-                                 first >= 0xE0 ? 3 :
-                                 first >= 0xC0 ? 2 :
-                                                 1;
-      for (std::size_t i = 1; i < length; ++i)
-        if (begin + i >= text.size() || (text[begin + i] & 0xC0) != 0x80)
-          return 0;
-      return length;
+      namespace utf    = boost::locale::utf;
+      auto       next  = text.begin() + begin;
+      const auto point = utf::utf_traits<char>::decode(next, text.end());
+      return utf::is_valid_codepoint(point) ? next - text.begin() - begin : 0;
     }
   } // namespace
 
