@@ -3,7 +3,9 @@
 
 #include <slipstep/utilities/lists.h>
 
-#include <deal.II/base/polynomial.h>
+#include <deal.II/base/geometry_info.h>
+
+#include <deal.II/fe/fe_dgq.h>
 
 #include <algorithm>
 #include <cmath>
@@ -87,37 +89,6 @@ namespace SlipStep
         }
       return lower;
     }
-
-
-
-    std::vector<double> points_in_1d(const unsigned int degree)
-    {
-      const QGauss<1>     gauss(degree + 1);
-      std::vector<double> points;
-      for (const Point<1> &point : gauss.get_points())
-        points.push_back(point[0]);
-      return points;
-    }
-
-
-
-    // Lagrange polynomials through the Gauss points of [0,1], at the Gauss
-    // points of the lower or upper half.
-    FullMatrix<double> half_in_1d(const unsigned int degree,
-                                  const unsigned int half)
-    {
-      const std::vector<double> points = points_in_1d(degree);
-      std::vector<Point<1>>     nodes(points.size());
-      for (unsigned int q = 0; q < points.size(); ++q)
-        nodes[q][0] = points[q];
-      const auto basis = Polynomials::generate_complete_Lagrange_basis(nodes);
-
-      FullMatrix<double> matrix(points.size(), points.size());
-      for (unsigned int k = 0; k < points.size(); ++k)
-        for (unsigned int q = 0; q < points.size(); ++q)
-          matrix(k, q) = basis[q].value((points[k] + half) / 2.);
-      return matrix;
-    }
   } // namespace
 
 
@@ -130,24 +101,20 @@ namespace SlipStep
     , coefficient_range(law.coefficient_range())
     , weights(QGauss<dim - 1>(degree + 1).get_weights())
   {
-    const unsigned int n_1d = degree + 1, n = weights.size();
+    const QGauss<dim - 1> points(degree + 1);
+    // Lagrange polynomials through these points.
+    const FE_DGQArbitraryNodes<dim - 1> polynomials(QGauss<1>(degree + 1));
+    const unsigned int                  n = weights.size();
     for (unsigned int child = 0; child < n_children; ++child)
       {
         to_child[child].reinit(n, n);
         to_parent[child].reinit(n, n);
         for (unsigned int k = 0; k < n; ++k)
           for (unsigned int q = 0; q < n; ++q)
-            to_child[child](k, q) = 1.;
-        unsigned int stride = 1;
-        for (unsigned int d = 0; d < dim - 1; ++d, stride *= n_1d)
-          {
-            const FullMatrix<double> half =
-              half_in_1d(degree, (child >> d) & 1);
-            for (unsigned int k = 0; k < n; ++k)
-              for (unsigned int q = 0; q < n; ++q)
-                to_child[child](k, q) *=
-                  half(k / stride % n_1d, q / stride % n_1d);
-          }
+            to_child[child](k, q) = polynomials.shape_value(
+              q,
+              GeometryInfo<dim - 1>::child_to_cell_coordinates(points.point(k),
+                                                               child));
 
         // The mass matrix of the Lagrange polynomials is diagonal.
         for (unsigned int q = 0; q < n; ++q)
