@@ -4,7 +4,10 @@
 #include <slipstep/utilities/text.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/fe/fe_dgq.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,25 +50,6 @@ namespace SlipStep
 
 
 
-    /// At @p x, the Lagrange polynomial that is one at the node nearest to
-    /// @p own and zero at the others.
-    double lagrange(const QGauss<1> &nodes, const double own, const double x)
-    {
-      unsigned int nearest = 0;
-      for (unsigned int i = 1; i < nodes.size(); ++i)
-        if (std::abs(nodes.point(i)[0] - own) <
-            std::abs(nodes.point(nearest)[0] - own))
-          nearest = i;
-      double value = 1.;
-      for (unsigned int i = 0; i < nodes.size(); ++i)
-        if (i != nearest)
-          value *= (x - nodes.point(i)[0]) /
-                   (nodes.point(nearest)[0] - nodes.point(i)[0]);
-      return value;
-    }
-
-
-
     // Where a curve through points passes a level between points i-1 and i: on
     // the cubic through them and the next on both sides, so that the place is
     // as good as the curve.
@@ -73,19 +57,16 @@ namespace SlipStep
                     const std::size_t                             i,
                     const double                                  level)
     {
-      const std::size_t begin  = i >= 2 ? i - 2 : i - 1;
-      const std::size_t end    = std::min(i + 2, curve.size());
-      const auto        excess = [&](const double x) {
+      const std::size_t     begin = i >= 2 ? i - 2 : i - 1;
+      const std::size_t     end   = std::min(i + 2, curve.size());
+      std::vector<Point<1>> places;
+      for (std::size_t k = begin; k < end; ++k)
+        places.emplace_back(curve[k].first);
+      const auto basis  = Polynomials::generate_complete_Lagrange_basis(places);
+      const auto excess = [&](const double x) {
         double sum = -level;
         for (std::size_t k = begin; k < end; ++k)
-          {
-            double value = curve[k].second;
-            for (std::size_t l = begin; l < end; ++l)
-              if (l != k)
-                value *=
-                  (x - curve[l].first) / (curve[k].first - curve[l].first);
-            sum += value;
-          }
+          sum += curve[k].second * basis[k - begin].value(x);
         return sum;
       };
       double     lower = curve[i - 1].first, upper = curve[i].first;
@@ -215,31 +196,27 @@ namespace SlipStep
   {
     // Sum over the cells that touch the point, and their number.
     std::vector<double> sums(2);
-    const QGauss<1>     nodes(static_cast<unsigned int>(
-      std::lround(std::pow(contact.quadrature().size(), 1. / (dim - 1)))));
+    const Quadrature<1> nodes = contact.quadrature().get_tensor_basis()[0];
+    const FE_DGQArbitraryNodes<dim - 1> polynomials(nodes);
+    const auto                          numbers =
+      lexicographic_face_points<dim>(nodes.size(), parameters);
     for (const auto &cell_face : contact.cell_faces())
       {
-        std::array<Interval, dim - 1> extents;
-        bool                          is_here = true;
+        Point<dim - 1> place;
+        bool           is_here = true;
         for (unsigned int i = 0; i < dim - 1; ++i)
           {
-            extents[i] = extent<dim>(cell_face, parameters.tangential_axis(i));
-            is_here    = is_here && extents[i].contains(position[i]);
+            const Interval side =
+              extent<dim>(cell_face, parameters.tangential_axis(i));
+            is_here  = is_here && side.contains(position[i]);
+            place[i] = side.unit_coordinate(position[i]);
           }
         if (!is_here)
           continue;
         double value = 0.;
-        for (const auto &point : cell_face.points)
-          {
-            double weight = point.point.committed().normal_traction;
-            for (unsigned int i = 0; i < dim - 1; ++i)
-              weight *=
-                lagrange(nodes,
-                         extents[i].unit_coordinate(
-                           point.position[parameters.tangential_axis(i)]),
-                         extents[i].unit_coordinate(position[i]));
-            value += weight;
-          }
+        for (unsigned int q = 0; q < numbers.size(); ++q)
+          value += cell_face.points[q].point.committed().normal_traction *
+                   polynomials.shape_value(numbers[q], place);
         sums[0] += std::max(value, 0.);
         sums[1] += 1.;
       }
