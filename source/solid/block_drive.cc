@@ -84,18 +84,10 @@ namespace SlipStep
                                          Vector             &changes) const
   {
     changes = 0.;
-    contact.add_force_changes(displacement, frame, changes);
+    system->add_elastic_forces(displacement, changes);
     changes.compress(VectorOperation::add);
-    const BodyFactors body = inertia.factors(stage_time);
-    if (body.stiffness == 1.)
-      system->add_elastic_forces(displacement, changes);
-    else
-      {
-        Vector scaled(displacement);
-        scaled *= body.stiffness;
-        scaled.update_ghost_values();
-        system->add_elastic_forces(scaled, changes);
-      }
+    changes *= inertia.factors(stage_time).stiffness;
+    contact.add_force_changes(displacement, frame, changes);
     changes.compress(VectorOperation::add);
     inertia.add_force_changes(displacement,
                               parameters.template in_plane<dim>(frame),
