@@ -13,12 +13,7 @@ namespace SlipStep
 {
   double level_of_round(const Workspace &workspace, const std::size_t round)
   {
-    // Halves, and in the last round what is left.
-    const std::size_t last = std::max(1u, workspace.most_effects) - 1;
-    const double      share =
-      std::pow(0.5, std::min(round, last) + (round < last ? 1. : 0.));
-    const double least = 1. / (workspace.null_draws.rows() + 1.);
-    return std::max(share * level_of_names(workspace.level), least);
+    return (round < 2 ? 0.25 : 0.125) * workspace.level;
   }
 
 

@@ -46,9 +46,9 @@ namespace SlipStep
     parameters.declare(section + "Level",
                        "0.04",
                        Quantity(Dimension::number, 1e-3, 0.3),
-                       "Chance of an alarm where nothing is missing; that of "
-                       "a name is half as large. Between 0.001 and 0.3, no "
-                       "unit.");
+                       "Chance of an alarm where nothing is missing; a name "
+                       "has a quarter of that chance. Between 0.001 and 0.3, "
+                       "no unit.");
     parameters.declare(section + "Most effects",
                        "4",
                        Integer(1, 4),

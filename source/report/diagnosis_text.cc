@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/candidates.h>
 #include <slipstep/diagnosis/covariate.h>
-#include <slipstep/diagnosis/rules.h>
 #include <slipstep/report/diagnosis_report.h>
 
 #include <cmath>
@@ -146,7 +145,7 @@ namespace SlipStep
     }
 
     /// Effects that are seen, though not surely enough to be fitted, for which
-    /// the first name has half of the level of names: none if others had been.
+    /// the first name has a quarter of the level: none if others had been.
     std::vector<const CandidateResult *> unsure(const Diagnosis &diagnosis)
     {
       std::vector<const CandidateResult *> found;
@@ -155,8 +154,7 @@ namespace SlipStep
           return {};
         else if (candidate.standing == Standing::not_enough)
           {
-            if (diagnosis.has_gap &&
-                candidate.p <= level_of_names(diagnosis.level) / 2.)
+            if (diagnosis.has_gap && candidate.p <= diagnosis.level / 4.)
               return {};
             found.push_back(&candidate);
           }

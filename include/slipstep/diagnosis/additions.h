@@ -10,9 +10,10 @@
 
 namespace SlipStep
 {
-  /// What may be spent of level_of_names() on the effect of a round, counted
-  /// from 0: halves of what is left, so that all rounds together spend it once;
-  /// but no less than the draws resolve.
+  /// What may be spent of Diagnosis/Level on the effect of a round, counted
+  /// from 0: a quarter on the first and on the second, an eighth on each
+  /// later one. So one alarm in four gives a name where nothing is missing,
+  /// and four rounds together spend less than the level.
   double level_of_round(const Workspace &workspace, const std::size_t round);
 
   /// Whether these tests can tell an effect, and chance among all candidates

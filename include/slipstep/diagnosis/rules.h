@@ -4,13 +4,6 @@
 
 namespace SlipStep
 {
-  /// The chance of a name where nothing is missing, of that of an alarm
-  /// (Diagnosis/Level).
-  constexpr double level_of_names(const double level)
-  {
-    return 0.5 * level;
-  }
-
   // Of the search, in units of the objective (chi^2).
 
   /// What every parameter has to gain.

@@ -51,8 +51,10 @@ TEST_P(HiddenCampaign, IsDiagnosed)
       EXPECT_EQ(trial.named, trial.truth);
       EXPECT_LT(trial.error_after, 0.7 * trial.error_before);
     }
-  else if (expected.verdict == Verdict::ambiguous)
-    EXPECT_TRUE(trial.holds_truth());
+  if (expected.verdict == Verdict::ambiguous)
+    {
+      EXPECT_TRUE(trial.holds_truth());
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(
