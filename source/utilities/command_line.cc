@@ -536,8 +536,18 @@ namespace SlipStep
       return line;
     if (line.command == "help")
       {
+        line.files.assign(words.begin() + 1, words.end());
+        check_usage(line, values);
         line.help    = true;
         line.command = words.size() > 1 ? words[1] : "";
+        if (words.size() > 1 && !holds(command_names(), line.command))
+          throw InputError("\"" + line.command +
+                           "\" is no command; an effect is explained by "
+                           "slipstep effects " +
+                           line.command + ", a section or key by slipstep " +
+                           "parameters " + line.command +
+                           "\n  known commands: " +
+                           boost::algorithm::join(command_names(), ", "));
       }
     if (line.command.empty() && !line.help)
       throw InputError("a command is missing; \"slipstep help\" lists them");

@@ -311,6 +311,22 @@ TEST(Help, GoesToStdoutForEachCommand)
 
 
 
+TEST(Help, IsAskedForOneCommand)
+{
+  const SlipstepProcess process;
+  const auto            effect = process.run({"help", "run_in"});
+  EXPECT_EQ(effect.exit_code, 2);
+  EXPECT_TRUE(contains(effect.err, "slipstep effects run_in")) << effect.err;
+  const auto two = process.run({"help", "point", "check"});
+  EXPECT_EQ(two.exit_code, 2);
+  EXPECT_TRUE(contains(two.err, "\"check\" is one argument too many"))
+    << two.err;
+  EXPECT_EQ(process.run({"help", "--resume"}).exit_code, 2);
+  EXPECT_EQ(process.run({"help"}).exit_code, 0);
+}
+
+
+
 TEST(Check, NamesEveryCaseAndWritesNothing)
 {
   const SlipstepProcess process;
