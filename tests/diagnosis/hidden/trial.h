@@ -234,12 +234,16 @@ namespace SlipStep
         find_intervals(workspace, model, 0.95);
       for (const Planting::PlantedEffect &effect : campaign.hidden)
         {
-          std::string  path;
-          const double planted =
+          std::string path;
+          double      planted =
             planted_strength(effect, campaign.contact.stiffness, path);
           for (const DiagnosedParameter &parameter : found)
             if (parameter.path == path && parameter.effect == effect.name)
               {
+                // The same ellipse, with its axes exchanged.
+                if (effect.name == "anisotropy" &&
+                    (planted > 1.) != (parameter.value > 1.))
+                  planted = 1. / planted;
                 ++trial.n_intervals;
                 trial.n_inside +=
                   (parameter.is_lower_open || planted >= parameter.lower) &&
