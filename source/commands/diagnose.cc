@@ -163,15 +163,15 @@ namespace SlipStep
       std::vector<double> times;
       for (const double since_begin : test.time)
         times.push_back(begin + since_begin);
-      Curves result;
-      result.x = at_times(history.time, history.friction, times);
-      result.y.resize(times.size(), 0.);
-      if (!history.friction_y.empty())
-        result.y = at_times(history.time, history.friction_y, times);
+      const std::vector<double> x =
+        at_times(history.time, history.friction, times);
+      const std::vector<double> y =
+        history.friction_y.empty() ?
+          std::vector<double>(times.size()) :
+          at_times(history.time, history.friction_y, times);
       if (test.measured_y.empty())
-        result = {FrictionAxis{test.cosine, test.sine}.of(result.x, result.y),
-                  {}};
-      return result;
+        return {FrictionAxis{test.cosine, test.sine}.of(x, y), {}};
+      return {x, y};
     }
 
 

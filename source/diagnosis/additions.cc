@@ -68,7 +68,13 @@ namespace SlipStep
     {
       constexpr unsigned int most_tried = 5;
 
-      double             level = level_of_round(workspace, n_effects);
+      const double       own   = level_of_round(workspace, n_effects);
+      const double       level = any_of(view.candidates,
+                                  [&](const CandidateView &seen) {
+                                    return is_evident(seen, own);
+                                  }) ?
+                                   workspace.level :
+                                   own;
       std::vector<Model> found;
       unsigned int       n_tried = 0;
       double             gain    = 0.; // of the best
@@ -76,7 +82,6 @@ namespace SlipStep
         {
           if (!is_evident(seen, level) || n_tried == most_tried)
             continue;
-          level = workspace.level;
           if (workspace.is_late())
             return {};
           ++n_tried;

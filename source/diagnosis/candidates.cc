@@ -19,7 +19,7 @@ namespace SlipStep
     {
       return now.parameters.text("Calibration/Parameters").find(path + " ") !=
                std::string::npos ||
-             place_among(fitted, path) < fitted.size();
+             lists(fitted, path);
     }
 
 
@@ -381,7 +381,7 @@ namespace SlipStep
       for (const auto &[path, text] : formula.texts)
         parameters.set(path, text, "diagnosis");
       for (const CandidateParameter &parameter : formula.parameters)
-        if (place_among(result.fitted, parameter.path) == result.fitted.size())
+        if (!lists(result.fitted, parameter.path))
           result.fitted.push_back(
             make_fit_parameter(parameters,
                                parameter.path,

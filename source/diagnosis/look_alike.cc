@@ -147,7 +147,7 @@ namespace SlipStep
       remove_erase_if(paths, [&](const std::string &path) {
         return dynamic_cast<const Quantity *>(
                  start.entry(path).pattern.get()) == nullptr ||
-               place_among(campaign.fitted, path) < campaign.fitted.size() ||
+               lists(campaign.fitted, path) ||
                any_of(campaign.derived,
                       [&](const Derived &one) { return one.name == path; });
       });

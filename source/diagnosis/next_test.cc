@@ -204,8 +204,7 @@ namespace SlipStep
         // again.
         std::vector<bool> held;
         for (const FitParameter &parameter : model.campaign->fitted)
-          held.push_back(place_among(formula.parameters, parameter.path) <
-                         formula.parameters.size());
+          held.push_back(lists(formula.parameters, parameter.path));
         if (workspace.comparison.fit(model, 1., {}, held))
           return model;
         return {};

@@ -213,18 +213,20 @@ namespace SlipStep
 
 
 
-    const Command &find_command(const std::string &name)
+    // @param hint what else a message may say
+    const Command &find_command(const std::string &name,
+                                const std::string &hint = "")
     {
       for (const Command &command : commands)
         if (command.name == name)
           return command;
       const bool is_case =
         name != ".prm" && boost::algorithm::ends_with(name, ".prm");
-      throw InputError(
-        "unknown command \"" + name + "\"" +
-        (is_case ? "; did you mean slipstep run " + name + "?" :
-                   did_you_mean(name, command_names())) +
-        "\n  known commands: " + boost::algorithm::join(command_names(), ", "));
+      throw InputError("unknown command \"" + name + "\"" +
+                       (is_case ? "; did you mean slipstep run " + name + "?" :
+                                  did_you_mean(name, command_names())) +
+                       hint + "\n  known commands: " +
+                       boost::algorithm::join(command_names(), ", "));
     }
 
 
@@ -540,19 +542,16 @@ namespace SlipStep
         check_usage(line, values);
         line.help    = true;
         line.command = words.size() > 1 ? words[1] : "";
-        if (words.size() > 1 && !holds(command_names(), line.command))
-          throw InputError("\"" + line.command +
-                           "\" is no command; an effect is explained by "
-                           "slipstep effects " +
-                           line.command + ", a section or key by slipstep " +
-                           "parameters " + line.command +
-                           "\n  known commands: " +
-                           boost::algorithm::join(command_names(), ", "));
       }
     if (line.command.empty() && !line.help)
       throw InputError("a command is missing; \"slipstep help\" lists them");
     if (!line.command.empty())
-      find_command(line.command);
+      find_command(line.command,
+                   line.help ? "; an effect is explained by slipstep effects " +
+                                 line.command +
+                                 ", a section or key by slipstep parameters " +
+                                 line.command :
+                               "");
     if (line.help)
       return line;
 

@@ -317,6 +317,8 @@ TEST(Help, IsAskedForOneCommand)
   const auto            effect = process.run({"help", "run_in"});
   EXPECT_EQ(effect.exit_code, 2);
   EXPECT_TRUE(contains(effect.err, "slipstep effects run_in")) << effect.err;
+  const auto misspelt = process.run({"help", "calibrat"});
+  EXPECT_TRUE(contains(misspelt.err, "did you mean calibrate")) << misspelt.err;
   const auto two = process.run({"help", "point", "check"});
   EXPECT_EQ(two.exit_code, 2);
   EXPECT_TRUE(contains(two.err, "\"check\" is one argument too many"))

@@ -56,6 +56,13 @@ namespace SlipStep
     return i;
   }
 
+  /// Whether a path is among them.
+  template <typename Parameter>
+  bool lists(const std::vector<Parameter> &parameters, const std::string &path)
+  {
+    return place_among(parameters, path) < parameters.size();
+  }
+
   /// Whether a scaled value is one of the bounds, but for round-off.
   inline bool is_on_bound(const double scaled)
   {

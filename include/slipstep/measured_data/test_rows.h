@@ -99,8 +99,9 @@ namespace SlipStep
     return result;
   }
 
-  /// A curve through values at increasing times, by straight lines at other
-  /// ones [s], which increase, too; outside, its first and last value.
+  /// A curve of straight lines through values at increasing times (one at
+  /// least), at other times [s], which increase, too; outside, its first and
+  /// last value.
   std::vector<double> at_times(const std::vector<double> &times,
                                const std::vector<double> &values,
                                const std::vector<double> &wanted_times);

@@ -73,8 +73,8 @@ namespace SlipStep
   std::string essential_lines(const std::string &text,
                               const unsigned int n_lines);
 
-  /// Remarks for a file: lines of at most so many bytes, but of deep indents,
-  /// each begun with "# ".
+  /// Remarks for a file: wrapped into lines that begin with the indent and
+  /// "# ", of at most @p most bytes (with an indent of more than 40, longer).
   std::string commented(const std::string &text,
                         const std::string &indent = "",
                         const std::size_t  most   = 78);

@@ -128,11 +128,9 @@ namespace SlipStep
   /// A smoothing leaves mu times the coupling of normal and tangential
   /// tractions by the block, up to a half: for more than mu = 1 that is a bad
   /// smoother, and two or three of them are a good one.
-  inline unsigned int smoothings_for(const double largest_coefficient)
+  inline unsigned int smoothings_for(const double coefficient)
   {
-    return largest_coefficient <= 1.01 ? 1 :
-           largest_coefficient <= 1.51 ? 2 :
-                                         3;
+    return coefficient <= 1.01 ? 1 : coefficient <= 1.51 ? 2 : 3;
   }
 } // namespace SlipStep
 
