@@ -191,6 +191,24 @@ TEST(Ranks, agree_on_a_block_in_motion_in_many_steps)
 
 
 
+// Forces that the assembled matrix adds for other ranks are damped, too.
+TEST(Ranks, agree_on_a_damped_block_that_is_pushed)
+{
+  compare<2>({{"Loading/Programme",
+               "press 5.8 MPa in 0.1 s; push 0.4 MPa in 0.1 s; push 0.2 MPa in "
+               "0.1 s"},
+              {"Block/Density", "1e9 kg/m^3"},
+              {"Block/Damping time", "1 s"},
+              {"Block/Newton tolerance", "1e-11"},
+              {"Block/Dimension", "2"},
+              {"Block/Size", "10 mm, 5 mm"},
+              {"Block/Subdivisions", "4, 2"},
+              {"Block/Solver", "direct"}},
+             false);
+}
+
+
+
 TEST(Ranks, agree_on_adaptive_meshes_in_many_steps)
 {
   const Settings few_steps =
