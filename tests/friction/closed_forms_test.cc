@@ -360,7 +360,9 @@ TEST(ClosedForms, expression_of_position)
             };
             EXPECT_NEAR(there.traction * e / along, g(next) / g(place), 1e-5);
             if (std::string(anisotropy).empty())
-              EXPECT_NEAR(std::abs(along), 0.5 * g(place), 1e-4);
+              {
+                EXPECT_NEAR(std::abs(along), 0.5 * g(place), 1e-4);
+              }
           }
         // Less what is elastic.
         EXPECT_NEAR(place, 1.3 * std::cos(angle), 2e-3);
