@@ -153,28 +153,7 @@ namespace SlipStep
             return;
           }
         Simulator simulator(campaign);
-        try
-          {
-            const std::vector<unsigned int> all = all_parameters(campaign);
-            found[i] = fit(simulator, starts[i], all, 2, deadline);
-            // To be compared with others, without the error of its own steps.
-            if (std::isfinite(found[i].misfit))
-              {
-                const unsigned int iterations = found[i].iterations;
-                simulator.plan(found[i].scaled);
-                simulator.correct(found[i].scaled);
-                found[i] = fit(simulator, found[i].scaled, all, 0, deadline);
-                found[i].iterations += iterations;
-              }
-          }
-        catch (const InputError &error)
-          {
-            found[i].message = error.what();
-          }
-        catch (const RunError &error)
-          {
-            found[i].message = error.what();
-          }
+        found[i] = fit_exactly(simulator, campaign, starts[i], deadline);
         n_simulations += simulator.n_simulations();
         ++n_done;
         tell(std::to_string(n_done) + " of " + std::to_string(starts.size()) +

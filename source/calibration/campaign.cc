@@ -312,6 +312,42 @@ namespace SlipStep
 
 
 
+    // The first row of all is where both begin.
+    std::vector<std::size_t> rows_to_compare(const MeasuredTest &measured,
+                                             const MeasuredTest &test,
+                                             const Parameters   &parameters)
+    {
+      const double begin = test.time.front() + parameters.number(skip_key);
+      const std::vector<std::size_t> unloaded = rows_without_load(measured);
+      std::vector<std::size_t>       rows;
+      for (std::size_t i = 0; i < test.time.size(); ++i)
+        if (test.time[i] >= begin &&
+            !std::binary_search(unloaded.begin(), unloaded.end(), i))
+          rows.push_back(i);
+      if (rows.size() < 2)
+        parameters.reject(
+          skip_key,
+          std::string(rows.empty() ? "nothing" : "a single row") +
+            " is left of " + test.file.string() + ", which lasts " +
+            short_text(test.time.back() - test.time.front()) + " s");
+      return rows;
+    }
+
+
+
+    // Nearly the least, but for a few stamps that are next to each other.
+    double distance_of_rows(const MeasuredTest             &test,
+                            const std::vector<std::size_t> &rows)
+    {
+      std::vector<double> distances;
+      for (std::size_t i = 1; i < rows.size(); ++i)
+        distances.push_back(test.time[rows[i]] - test.time[rows[i - 1]]);
+      std::sort(distances.begin(), distances.end());
+      return distances[distances.size() / 20];
+    }
+
+
+
     // A replay of the same motion is taken as it is.
     CampaignTest prepare(const MeasuredTest &measured,
                          const Parameters   &parameters,
@@ -337,27 +373,8 @@ namespace SlipStep
           step = 0.;
           take_off_noise_of_motion(test, noise_share * slip);
         }
-      const double                   skip     = parameters.number(skip_key);
-      const double                   begin    = test.time.front() + skip;
-      const std::vector<std::size_t> unloaded = rows_without_load(measured);
-      std::vector<std::size_t>       rows;
-      // The first row of all is where both begin.
-      for (std::size_t i = 0; i < test.time.size(); ++i)
-        if (test.time[i] >= begin &&
-            !std::binary_search(unloaded.begin(), unloaded.end(), i))
-          rows.push_back(i);
-      if (rows.size() < 2)
-        parameters.reject(
-          skip_key,
-          std::string(rows.empty() ? "nothing" : "a single row") +
-            " is left of " + test.file.string() + ", which lasts " +
-            short_text(test.time.back() - test.time.front()) + " s");
-      // Nearly the least, but for a few stamps that are next to each other.
-      std::vector<double> distances;
-      for (std::size_t i = 1; i < rows.size(); ++i)
-        distances.push_back(test.time[rows[i]] - test.time[rows[i - 1]]);
-      std::sort(distances.begin(), distances.end());
-      const double    row_distance = distances[distances.size() / 20];
+      const std::vector<std::size_t> rows =
+        rows_to_compare(measured, test, parameters);
       ResampleOptions options;
       // Rows farther from each other tell when rests begin.
       options.motion_step = step > 0. ? rounding_of_motion(measured) : 0.;
@@ -368,7 +385,7 @@ namespace SlipStep
                             *of_same_motion :
                             Replay(resample(test, options).test,
                                    parameters.number("Calibration/Lead-in"),
-                                   row_distance),
+                                   distance_of_rows(test, rows)),
                           0.,
                           {}};
       result.replay.order = test.order();

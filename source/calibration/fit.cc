@@ -318,6 +318,37 @@ namespace SlipStep
 
 
 
+  FitResult fit_exactly(Simulator                 &simulator,
+                        const Campaign            &campaign,
+                        const std::vector<double> &scaled_start,
+                        const std::chrono::steady_clock::time_point deadline)
+  {
+    const std::vector<unsigned int> all = all_parameters(campaign);
+    FitResult                       result;
+    try
+      {
+        result = fit(simulator, scaled_start, all, 2, deadline);
+        if (!std::isfinite(result.misfit))
+          return result;
+        const unsigned int iterations = result.iterations;
+        simulator.plan(result.scaled);
+        simulator.correct(result.scaled);
+        result = fit(simulator, result.scaled, all, 0, deadline);
+        result.iterations += iterations;
+      }
+    catch (const InputError &error)
+      {
+        result.message = error.what();
+      }
+    catch (const RunError &error)
+      {
+        result.message = error.what();
+      }
+    return result;
+  }
+
+
+
   std::vector<std::vector<double>> spread_starts(const Campaign    &campaign,
                                                  const unsigned int n_starts)
   {

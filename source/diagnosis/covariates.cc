@@ -421,12 +421,72 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // The few rows of a start or a stop do not count.
+    std::pair<double, double> bulk_of(std::vector<double> values)
+    {
+      std::sort(values.begin(), values.end());
+      const std::size_t n = values.size(), few = n / 50;
+      return n == 0 ? std::make_pair(0., 0.) :
+                      std::make_pair(values[few], values[n - 1 - few]);
+    }
+
+
+
+    double widest_of(const std::vector<double> &angles)
+    {
+      std::vector<double> turns;
+      for (const double angle : angles)
+        turns.push_back(std::abs(std::sin(angle - angles[angles.size() / 2])));
+      return std::asin(bulk_of(turns).second);
+    }
+
+
+
+    // Of both axes together: one of them may idle.
+    double typical_friction(const Comparison &comparison,
+                            const Covariates &covariates)
+    {
+      std::vector<double> frictions;
+      for (const ComparedTest &test : comparison.tests)
+        for (std::size_t i = 0; i < test.n_bins(); ++i)
+          {
+            double square = 0.;
+            for (std::size_t s = 0; s < test.series.size(); ++s)
+              square += std::pow(covariates.friction(test.begin +
+                                                     s * test.n_bins() + i),
+                                 2);
+            frictions.push_back(std::sqrt(square));
+          }
+      return median(frictions);
+    }
+
+
+
+    // If all tests tell it.
+    void add_orders(const std::vector<CampaignTest> &tests, TestedRange &result)
+    {
+      std::set<double> orders;
+      for (const CampaignTest &test : tests)
+        if (const std::optional<double> order = test.rows.order())
+          orders.insert(*order);
+        else
+          return;
+      result.n_orders    = orders.size();
+      result.first_order = *orders.begin();
+      result.last_order  = *orders.rbegin();
+    }
+  } // namespace
+
+
+
   TestedRange tested_range(const Comparison                &comparison,
                            const std::vector<CampaignTest> &tests,
                            const Covariates                &covariates)
   {
     TestedRange         result;
-    std::vector<double> moving, angles, pressures, frictions;
+    std::vector<double> moving, angles, pressures;
     result.main_line = covariates.main_line;
     for (Eigen::Index k = 0; k < comparison.n_rows(); ++k)
       if (is_motion(covariates, k))
@@ -436,39 +496,10 @@ namespace SlipStep
           if (covariates.pressure(k) > 0.)
             pressures.push_back(covariates.pressure(k));
         }
-    // The few rows of a start or a stop do not count.
-    if (!angles.empty())
-      {
-        std::vector<double> turns;
-        for (const double angle : angles)
-          turns.push_back(
-            std::abs(std::sin(angle - angles[angles.size() / 2])));
-        std::sort(turns.begin(), turns.end());
-        result.widest_angle =
-          std::asin(turns[turns.size() - 1 - turns.size() / 50]);
-      }
-    // Of both axes together: one of them may idle.
-    for (const ComparedTest &test : comparison.tests)
-      for (std::size_t i = 0; i < test.n_bins(); ++i)
-        {
-          double square       = 0.;
-          result.has_two_axes = result.has_two_axes || test.series.size() > 1;
-          for (std::size_t s = 0; s < test.series.size(); ++s)
-            square +=
-              std::pow(covariates.friction(test.begin + s * test.n_bins() + i),
-                       2);
-          frictions.push_back(std::sqrt(square));
-        }
-    // Without the few rows of a start or a stop.
-    const auto bulk_of = [](std::vector<double> values) {
-      std::sort(values.begin(), values.end());
-      const std::size_t n = values.size(), few = n / 50;
-      return n == 0 ? std::make_pair(0., 0.) :
-                      std::make_pair(values[few], values[n - 1 - few]);
-    };
     std::tie(result.slowest, result.fastest) = bulk_of(moving);
     std::tie(result.lowest, result.highest)  = bulk_of(pressures);
-    result.typical_friction                  = median(frictions);
+    result.widest_angle                      = widest_of(angles);
+    result.typical_friction = typical_friction(comparison, covariates);
     for (std::size_t t = 0; t < tests.size(); ++t)
       {
         const MeasuredTest &rows = tests[t].rows;
@@ -479,6 +510,7 @@ namespace SlipStep
         result.longest_test =
           std::max(result.longest_test, rows.time.back() - rows.time.front());
         const ComparedTest &test = comparison.tests[t];
+        result.has_two_axes = result.has_two_axes || test.series.size() > 1;
         for (Eigen::Index k = test.begin; k < test.begin + test.size; ++k)
           {
             result.longest_path =
@@ -487,15 +519,7 @@ namespace SlipStep
               std::max(result.longest_rest, covariates.rest(k));
           }
       }
-    std::set<double> orders;
-    for (const CampaignTest &test : tests)
-      if (const std::optional<double> order = test.rows.order())
-        orders.insert(*order);
-      else
-        return result;
-    result.n_orders    = orders.size();
-    result.first_order = *orders.begin();
-    result.last_order  = *orders.rbegin();
+    add_orders(tests, result);
     return result;
   }
 } // namespace SlipStep

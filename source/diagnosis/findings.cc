@@ -497,60 +497,84 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    std::string in_percent(const double share)
+    {
+      return short_text(100. * share, 2) + " %";
+    }
+
+
+
+    void doubt_noise(const Workspace          &workspace,
+                     const Diagnosis          &diagnosis,
+                     std::vector<std::string> &doubts)
+    {
+      if (diagnosis.n_replicate_pairs == 0)
+        doubts.push_back(
+          "There are no replicates: the noise is the one stated in section "
+          "Diagnosis. If repeated tests differed by more than " +
+          in_percent(std::hypot(workspace.noise.noise.gain,
+                                workspace.noise.noise.offset)) +
+          " of friction, the verdict could be overturned.");
+      if (diagnosis.n_replicate_pairs == 0 &&
+          diagnosis.shrink.fitted_after < 0.95 * diagnosis.shrink.noise_floor)
+        doubts.push_back("The remaining difference (" +
+                         in_percent(diagnosis.shrink.fitted_after) +
+                         ") is less than the stated noise (" +
+                         in_percent(diagnosis.shrink.noise_floor) +
+                         "), which seems too large: with less noise, smaller "
+                         "gaps would be detected.");
+      else if (diagnosis.n_replicate_pairs > 0 &&
+               diagnosis.n_replicate_pairs < 4)
+        doubts.push_back("The noise between tests is known from " +
+                         std::to_string(diagnosis.n_replicate_pairs) +
+                         " repetition(s) only; a further one that differs more "
+                         "would make the gap less certain.");
+    }
+
+
+
+    void doubt_names(const Diagnosis          &diagnosis,
+                     std::vector<std::string> &doubts)
+    {
+      if (diagnosis.is_incomplete)
+        doubts.push_back("What remains is more than noise: the formula of " +
+                         diagnosis.effects.front() +
+                         " is not quite right, or something weaker is "
+                         "missing beside it.");
+      if (diagnosis.shrink.hardly_predicts())
+        doubts.push_back(
+          "Conditions left out of the fit are predicted " +
+          std::string(diagnosis.shrink.left_out_after >
+                          diagnosis.shrink.left_out_before ?
+                        "worse" :
+                        "hardly better") +
+          " with " + list_text(diagnosis.effects) +
+          ": between and beyond the conditions tested the formula may not "
+          "hold, and another effect may be what is missing.");
+      doubts.push_back(
+        "An effect that is not in the catalogue but changes friction in "
+        "the same way under the conditions tested would be taken for " +
+        diagnosis.effects.front() +
+        "; conditions that were not tested could tell.");
+      if (!diagnosis.next_test.words.empty())
+        doubts.push_back("The next test (" + diagnosis.next_test.words +
+                         ") may speak for a rival.");
+    }
+  } // namespace
+
+
+
   void describe_doubts(const Workspace &workspace, Diagnosis &diagnosis)
   {
-    std::vector<std::string> &doubts  = diagnosis.would_overturn;
-    const auto                percent = [](const double share) {
-      return short_text(100. * share, 2) + " %";
-    };
-    if (diagnosis.n_replicate_pairs == 0)
-      doubts.push_back(
-        "There are no replicates: the noise is the one stated in section "
-        "Diagnosis. If repeated tests differed by more than " +
-        percent(std::hypot(workspace.noise.noise.gain,
-                           workspace.noise.noise.offset)) +
-        " of friction, the verdict could be overturned.");
-    if (diagnosis.n_replicate_pairs == 0 &&
-        diagnosis.shrink.fitted_after < 0.95 * diagnosis.shrink.noise_floor)
-      doubts.push_back("The remaining difference (" +
-                       percent(diagnosis.shrink.fitted_after) +
-                       ") is less than the stated noise (" +
-                       percent(diagnosis.shrink.noise_floor) +
-                       "), which seems too large: with less noise, smaller "
-                       "gaps would be detected.");
-    else if (diagnosis.n_replicate_pairs > 0 && diagnosis.n_replicate_pairs < 4)
-      doubts.push_back("The noise between tests is known from " +
-                       std::to_string(diagnosis.n_replicate_pairs) +
-                       " repetition(s) only; a further one that differs more "
-                       "would make the gap less certain.");
+    std::vector<std::string> &doubts = diagnosis.would_overturn;
+    doubt_noise(workspace, diagnosis, doubts);
     switch (diagnosis.verdict)
       {
         case Verdict::named:
         case Verdict::ambiguous:
-          if (diagnosis.is_incomplete)
-            doubts.push_back(
-              "What remains is more than noise: the formula of " +
-              diagnosis.effects.front() +
-              " is not quite right, or something weaker is "
-              "missing beside it.");
-          if (diagnosis.shrink.hardly_predicts())
-            doubts.push_back(
-              "Conditions left out of the fit are predicted " +
-              std::string(diagnosis.shrink.left_out_after >
-                              diagnosis.shrink.left_out_before ?
-                            "worse" :
-                            "hardly better") +
-              " with " + list_text(diagnosis.effects) +
-              ": between and beyond the conditions tested the formula may not "
-              "hold, and another effect may be what is missing.");
-          doubts.push_back(
-            "An effect that is not in the catalogue but changes friction in "
-            "the same way under the conditions tested would be taken for " +
-            diagnosis.effects.front() +
-            "; conditions that were not tested could tell.");
-          if (!diagnosis.next_test.words.empty())
-            doubts.push_back("The next test (" + diagnosis.next_test.words +
-                             ") may speak for a rival.");
+          doubt_names(diagnosis, doubts);
           break;
         case Verdict::unnamed:
           doubts.push_back("A larger catalogue could contain the missing "

@@ -7,6 +7,7 @@
 #include <slipstep/utilities/paths.h>
 
 #include <cmath>
+#include <optional>
 
 namespace SlipStep
 {
@@ -123,6 +124,147 @@ namespace SlipStep
       row.memories          = state.memories;
       return row;
     }
+
+
+
+    /// A contact point at the end of a machine, led through a programme.
+    class PointDrive
+    {
+    public:
+      PointDrive(const FrictionLaw &law,
+                 const Programme   &programme,
+                 const StepControl &control,
+                 const Machine     &machine)
+        : law(law)
+        , programme(programme)
+        , machine(machine)
+        , control(control)
+        , point(law)
+      {}
+
+      StepControl run(const std::function<void(const HistoryRow &)> &observe);
+
+    private:
+      std::optional<MachineStep> make_step(const Segment &segment,
+                                           const Loading &to);
+
+      bool accept(const MachineStep &step, const double pressure);
+
+      HistoryRow commit(const MachineStep &step, const Loading &to);
+
+      const FrictionLaw &law;
+      const Programme   &programme;
+      const Machine     &machine;
+      StepControl        control;
+      ContactPoint       point;
+      Slider             slider;
+      Tensor<1, 2>       load_before; ///< when the segment began
+      Tensor<1, 2>       pushed;      ///< motion of the drive that loads made
+      double             work = 0., snapped = 0.;
+    };
+
+
+
+    // None if the contact does not hold the load.
+    std::optional<MachineStep> PointDrive::make_step(const Segment &segment,
+                                                     const Loading &to)
+    {
+      const Loading from      = programme.at(control.time());
+      const double  step_size = control.step_size();
+      if (control.is_first_of_segment())
+        load_before = slider.load;
+      const double share = (control.end_of_step() - segment.start_time) /
+                           (segment.end_time - segment.start_time);
+      const Tensor<1, 2> load =
+        share < 1. ? load_before + share * (segment.push - load_before) :
+                     segment.push;
+      const MachineStep step =
+        segment.pushes ?
+          machine.push(law, point, slider, load, to.pressure, step_size) :
+          machine.step(law,
+                       point,
+                       slider,
+                       to.displacement - from.displacement,
+                       to.pressure,
+                       step_size,
+                       control.shortest_step());
+      if (step.holds)
+        return step;
+      control.cut(
+        reason_of_slip(load.norm() < slider.load.norm() ? load : segment.push,
+                       slider.load,
+                       from.pressure) +
+        " (with a Loading/Machine mass the contact would go on sliding)");
+      return {};
+    }
+
+
+
+    bool PointDrive::accept(const MachineStep &step, const double pressure)
+    {
+      const double start = control.time();
+      const double weight =
+        programme.weight_of_error(start, control.end_of_step());
+      StepError error = machine.error(law, point, step);
+      error.at_end *= weight;
+      error.of_line *= weight;
+      const bool is_first = control.is_first_of_segment();
+      if (!control.accept(error))
+        return false;
+      if (is_first && pressure > 0.)
+        control.note_lost_swing(machine.lost_swing(step) /
+                                  point.trial().strength,
+                                start);
+      return true;
+    }
+
+
+
+    HistoryRow PointDrive::commit(const MachineStep &step, const Loading &to)
+    {
+      work += normal_energy(law, point.trial()) -
+              normal_energy(law, point.committed()) + step.work;
+      // A contact that opens lets a spring without mass go.
+      if (to.pressure <= 0. && machine.mass() == 0.)
+        snapped += machine.stored_energy(slider);
+      slider = step.slider;
+      point.commit();
+
+      HistoryRow row     = row_of(law, point, to.pressure);
+      row.time           = control.time();
+      row.displacement   = to.displacement[0] + pushed[0];
+      row.displacement_y = to.displacement[1] + pushed[1];
+      row.slip_fraction  = step.contact.slips ? 1. : 0.;
+      row.dissipated_energy += snapped;
+      row.stored_energy += machine.stored_energy(slider);
+      row.kinetic_energy = machine.kinetic_energy(slider);
+      row.external_work  = work;
+      if (!machine.is_rigid())
+        row.probes = Machine::probes(slider, to.pressure);
+      return row;
+    }
+
+
+
+    StepControl
+    PointDrive::run(const std::function<void(const HistoryRow &)> &observe)
+    {
+      while (!control.is_finished())
+        {
+          const Segment &segment = programme.segment_at(control.end_of_step());
+          const Loading  to      = programme.at(control.end_of_step());
+          const double   step_size              = control.step_size();
+          const std::optional<MachineStep> step = make_step(segment, to);
+          if (!step.has_value() || !accept(*step, to.pressure))
+            continue;
+          if (segment.pushes)
+            pushed += step->motion;
+          HistoryRow row = commit(*step, to);
+          row.step_size  = step_size;
+          observe(row);
+        }
+      return control;
+    }
   } // namespace
 
 
@@ -134,85 +276,6 @@ namespace SlipStep
               const std::function<void(const HistoryRow &)> &observe,
               const Machine                                 &machine)
   {
-    ContactPoint point(law);
-    Slider       slider;
-    Tensor<1, 2> load_before; // that of the drive when the segment began
-    Tensor<1, 2> pushed;      // motion of the drive that loads made
-    double       work = 0., snapped = 0.;
-    while (!control.is_finished())
-      {
-        const Loading      from      = programme.at(control.time());
-        const Loading      to        = programme.at(control.end_of_step());
-        const Tensor<1, 2> motion    = to.displacement - from.displacement;
-        const double       time_step = control.step_size();
-
-        const Segment &segment = programme.segment_at(control.end_of_step());
-        if (control.is_first_of_segment())
-          load_before = slider.load;
-        const double share = (control.end_of_step() - segment.start_time) /
-                             (segment.end_time - segment.start_time);
-        const Tensor<1, 2> load =
-          share < 1. ? load_before + share * (segment.push - load_before) :
-                       segment.push;
-
-        const MachineStep step =
-          segment.pushes ?
-            machine.push(law, point, slider, load, to.pressure, time_step) :
-            machine.step(law,
-                         point,
-                         slider,
-                         motion,
-                         to.pressure,
-                         time_step,
-                         control.shortest_step());
-        if (!step.holds)
-          {
-            control.cut(reason_of_slip(load.norm() < slider.load.norm() ?
-                                         load :
-                                         segment.push,
-                                       slider.load,
-                                       from.pressure) +
-                        " (with a Loading/Machine mass the contact would go on "
-                        "sliding)");
-            continue;
-          }
-        const double weight =
-          programme.weight_of_error(control.time(), control.end_of_step());
-        StepError error = machine.error(law, point, step);
-        error.at_end *= weight;
-        error.of_line *= weight;
-        const bool is_first = control.is_first_of_segment();
-        if (!control.accept(error))
-          continue;
-        if (is_first && to.pressure > 0.)
-          control.note_lost_swing(machine.lost_swing(step) /
-                                    point.trial().strength,
-                                  control.time() - time_step);
-
-        work += normal_energy(law, point.trial()) -
-                normal_energy(law, point.committed()) + step.work;
-        // A contact that opens lets a spring without mass go.
-        if (to.pressure <= 0. && machine.mass() == 0.)
-          snapped += machine.stored_energy(slider);
-        slider = step.slider;
-        if (segment.pushes)
-          pushed += step.motion;
-        point.commit();
-
-        HistoryRow row     = row_of(law, point, to.pressure);
-        row.time           = control.time();
-        row.displacement   = to.displacement[0] + pushed[0];
-        row.displacement_y = to.displacement[1] + pushed[1];
-        row.slip_fraction  = step.contact.slips ? 1. : 0.;
-        row.dissipated_energy += snapped;
-        row.stored_energy += machine.stored_energy(slider);
-        row.kinetic_energy = machine.kinetic_energy(slider);
-        row.external_work  = work;
-        row.step_size      = time_step;
-        if (!machine.is_rigid())
-          row.probes = Machine::probes(slider, to.pressure);
-        observe(row);
-      }
-    return control;
+    return PointDrive(law, programme, control, machine).run(observe);
   }
 } // namespace SlipStep

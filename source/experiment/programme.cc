@@ -240,6 +240,19 @@ namespace SlipStep
         ++n_statements;
       }
 
+      void refuse_verb(const Piece &verb) const
+      {
+        std::vector<std::string> verbs;
+        for (const auto &entry : usage)
+          verbs.push_back(entry.first);
+        const std::string nearest = nearest_name(verb.text, verbs);
+        fail(verb.column,
+             "unknown word '" + verb.text + "'" +
+               (nearest.empty() ?
+                  "; known are press, hold, slide, push, follow, repeat" :
+                  "; did you mean '" + nearest + "'?"));
+      }
+
       Statement read_statement(const Piece &piece) const
       {
         const std::vector<Piece> all = words(piece);
@@ -251,17 +264,7 @@ namespace SlipStep
 
         const std::string &verb = statement.verb.text;
         if (usage.count(verb) == 0)
-          {
-            std::vector<std::string> verbs;
-            for (const auto &entry : usage)
-              verbs.push_back(entry.first);
-            const std::string nearest = nearest_name(verb, verbs);
-            fail(statement.verb.column,
-                 "unknown word '" + verb + "'" +
-                   (nearest.empty() ?
-                      "; known are press, hold, slide, push, follow, repeat" :
-                      "; did you mean '" + nearest + "'?"));
-          }
+          refuse_verb(statement.verb);
         if (verb == "repeat")
           fail(piece.end(),
                "what is repeated stands in braces; write e.g. '" +

@@ -194,6 +194,40 @@ namespace SlipStep
         }
       return curve;
     }
+
+
+
+    /// What the study has of both.
+    void compare_meshes(const StudyRun                       &finer,
+                        const std::map<std::string, Summary> &summaries,
+                        StudyCurve                           *uniform,
+                        StudyCurve                           *adaptive)
+    {
+      NamedReference reference;
+      if (finer.label.empty())
+        {
+          if (uniform != nullptr)
+            reference = extrapolate(*uniform);
+        }
+      else
+        {
+          const bool  is_adaptive = finer.label.rfind("adaptive", 0) == 0;
+          StudyCurve *own         = is_adaptive ? adaptive : uniform;
+          if (own == nullptr)
+            own = is_adaptive ? uniform : adaptive;
+          const Summary &summary = summaries.at(finer.folder);
+          reference              = finer_run(*own, finer.label, summary);
+          for (StudyCurve *curve : {uniform, adaptive})
+            if (curve != nullptr)
+              curve->reference_run = summary;
+        }
+      if (uniform != nullptr)
+        compare(reference, *uniform);
+      if (finer.label.empty())
+        reference.name += " of the uniform meshes";
+      if (adaptive != nullptr)
+        compare(reference, *adaptive);
+    }
   } // namespace
 
 
@@ -223,36 +257,11 @@ namespace SlipStep
               return &curves[i];
           return static_cast<StudyCurve *>(nullptr);
         };
-        StudyCurve *uniform  = curve_of(StudySequence::Kind::uniform);
-        StudyCurve *adaptive = curve_of(StudySequence::Kind::adaptive);
-        StudyCurve *steps    = curve_of(StudySequence::Kind::time_step);
-
-        NamedReference  mesh;
-        const StudyRun &finer_mesh = study.mesh_reference;
-        if (finer_mesh.label.empty())
-          {
-            if (uniform != nullptr)
-              mesh = extrapolate(*uniform);
-          }
-        else
-          {
-            const bool is_adaptive = finer_mesh.label.rfind("adaptive", 0) == 0;
-            StudyCurve *own        = is_adaptive ? adaptive : uniform;
-            if (own == nullptr)
-              own = is_adaptive ? uniform : adaptive;
-            const Summary &summary = summaries.at(finer_mesh.folder);
-            mesh                   = finer_run(*own, finer_mesh.label, summary);
-            for (StudyCurve *curve : {uniform, adaptive})
-              if (curve != nullptr)
-                curve->reference_run = summary;
-          }
-        if (uniform != nullptr)
-          compare(mesh, *uniform);
-        if (finer_mesh.label.empty())
-          mesh.name += " of the uniform meshes";
-        if (adaptive != nullptr)
-          compare(mesh, *adaptive);
-
+        compare_meshes(study.mesh_reference,
+                       summaries,
+                       curve_of(StudySequence::Kind::uniform),
+                       curve_of(StudySequence::Kind::adaptive));
+        StudyCurve     *steps      = curve_of(StudySequence::Kind::time_step);
         const StudyRun &finer_step = study.time_reference;
         if (steps != nullptr)
           compare(finer_step.label.empty() ?

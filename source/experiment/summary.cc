@@ -438,6 +438,21 @@ namespace SlipStep
 
 
 
+    /// First row after a time. Of many thousands of strokes each has its part
+    /// of the history only.
+    std::vector<HistoryRow>::const_iterator
+    first_after(const double time, const std::vector<HistoryRow> &history)
+    {
+      return std::upper_bound(history.begin(),
+                              history.end(),
+                              time,
+                              [](const double time, const HistoryRow &row) {
+                                return time < row.time;
+                              });
+    }
+
+
+
     /// @return false if the history holds no row of this motion
     bool summarise(const Motion                  &motion,
                    const std::vector<HistoryRow> &history,
@@ -460,17 +475,8 @@ namespace SlipStep
       // The row before it, and its own.
       std::vector<SlideRow> rows = {{motion.start_time, 0., 0., 0., 0.}};
       slide.is_complete = history.back().time >= motion.end_time - tolerance;
-      // Of many thousands of strokes each has its part of the history only.
-      const auto until = [&](const double time) {
-        return std::upper_bound(history.begin(),
-                                history.end(),
-                                time + tolerance,
-                                [](const double time, const HistoryRow &row) {
-                                  return time < row.time;
-                                });
-      };
-      const auto begin = until(motion.start_time);
-      const auto end   = until(motion.end_time);
+      const auto begin  = first_after(motion.start_time + tolerance, history);
+      const auto end    = first_after(motion.end_time + tolerance, history);
       if (begin == end)
         return false;
       if (begin != history.begin())

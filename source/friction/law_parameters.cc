@@ -140,6 +140,44 @@ namespace SlipStep
 
 
 
+  // The flow rule, or all others.
+  void FrictionLaw::create_effects(const Parameters &parameters,
+                                   const bool        flow_rule)
+  {
+    for (std::size_t i = 0; i < names.size(); ++i)
+      {
+        const EffectInfo &info = effect_registry().at(names[i]);
+        if ((info.slot == ExclusiveSlot::overstress) != flow_rule)
+          continue;
+        active[i]             = info.create(info.section_of(parameters), basis);
+        const Effect *created = active[i].get();
+        if (info.slot == ExclusiveSlot::overstress)
+          flow = created;
+        if (info.slot == ExclusiveSlot::normal_ratio)
+          normal_ratio = created;
+        if (info.slot == ExclusiveSlot::elastic_core)
+          core = created;
+        if (info.slot == ExclusiveSlot::anisotropy)
+          {
+            cone           = created->cone();
+            inverse_cone   = invert(cone);
+            is_anisotropic = cone != neutral.cone();
+          }
+        if (created->remembers_rate())
+          rate_memory = created;
+        if (const auto *effect =
+              dynamic_cast<const CoefficientEffect *>(created))
+          coefficient_effects.push_back(effect);
+        if (const auto *effect = dynamic_cast<const StrengthEffect *>(created))
+          {
+            strength_effects.push_back(effect);
+            depends_on_rate = depends_on_rate || effect->depends_on_rate();
+          }
+      }
+  }
+
+
+
   FrictionLaw::FrictionLaw(const Parameters &parameters)
     : alpha_n(parameters.number("Friction/Normal stiffness"))
     , alpha_t(parameters.number("Friction/Tangential stiffness"))
@@ -150,48 +188,14 @@ namespace SlipStep
     reject_values_of_inactive_effects(parameters, names);
 
     active.resize(names.size());
-    const auto create = [&](const bool flow_rule) {
-      for (std::size_t i = 0; i < names.size(); ++i)
-        {
-          const EffectInfo &info = effect_registry().at(names[i]);
-          if ((info.slot == ExclusiveSlot::overstress) != flow_rule)
-            continue;
-          active[i] = info.create(info.section_of(parameters), basis);
-          const Effect *created = active[i].get();
-          if (info.slot == ExclusiveSlot::overstress)
-            flow = created;
-          if (info.slot == ExclusiveSlot::normal_ratio)
-            normal_ratio = created;
-          if (info.slot == ExclusiveSlot::elastic_core)
-            core = created;
-          if (info.slot == ExclusiveSlot::anisotropy)
-            {
-              cone           = created->cone();
-              inverse_cone   = invert(cone);
-              is_anisotropic = cone != neutral.cone();
-            }
-          if (created->remembers_rate())
-            rate_memory = created;
-          if (const auto *effect =
-                dynamic_cast<const CoefficientEffect *>(created))
-            coefficient_effects.push_back(effect);
-          if (const auto *effect =
-                dynamic_cast<const StrengthEffect *>(created))
-            {
-              strength_effects.push_back(effect);
-              depends_on_rate = depends_on_rate || effect->depends_on_rate();
-            }
-        }
-    };
-
     // The flow rule comes first: it tells r at the speed at which the
     // coefficients were read.
-    create(true);
+    create_effects(parameters, true);
     basis.scale = 1. / flow->steady_ratio(parameters.number(
                          "Friction/Speed of the coefficients"));
     basis.static_coefficient =
       parameters.number("Friction/Static coefficient") * basis.scale;
-    create(false);
+    create_effects(parameters, false);
 
     initial_coefficient       = basis.static_coefficient;
     const std::string initial = parameters.text("Friction/Initial coefficient");

@@ -24,6 +24,38 @@ namespace SlipStep
         '?');
       return name;
     }
+
+
+
+    void add_guesses_of_header(const RecordLayout       &layout,
+                               std::vector<ImportGuess> &guesses)
+    {
+      const auto guess = [&](const std::string &key,
+                             const std::string &value,
+                             const std::string &reason) {
+        guesses.push_back({"Raw file/" + key, value, reason, false});
+      };
+      if (layout.header_line == 0 || layout.has_unclear_header)
+        {
+          guess("Has header",
+                "false",
+                layout.header_line == 0 ?
+                  "no line of names before the rows" :
+                  "line " + std::to_string(layout.header_line) +
+                    " has not as many names as rows have cells");
+          guess("Header line",
+                std::to_string(layout.first_row),
+                "where the rows begin");
+        }
+      else
+        guess("Header line",
+              std::to_string(layout.header_line),
+              "the last line of words before the rows");
+      if (layout.units_line > 0 && !layout.has_unclear_header)
+        guess("Units line",
+              std::to_string(layout.units_line),
+              "most of its cells are units");
+    }
   } // namespace
 
 
@@ -66,26 +98,7 @@ namespace SlipStep
               "three digits stand behind each, where there is one" :
               "numbers have a second mark",
             layout.has_doubtful_marks);
-    if (layout.header_line == 0 || layout.has_unclear_header)
-      {
-        guess("Raw file/Has header",
-              "false",
-              layout.header_line == 0 ?
-                "no line of names before the rows" :
-                "line " + std::to_string(layout.header_line) +
-                  " has not as many names as rows have cells");
-        guess("Raw file/Header line",
-              std::to_string(layout.first_row),
-              "where the rows begin");
-      }
-    else
-      guess("Raw file/Header line",
-            std::to_string(layout.header_line),
-            "the last line of words before the rows");
-    if (layout.units_line > 0 && !layout.has_unclear_header)
-      guess("Raw file/Units line",
-            std::to_string(layout.units_line),
-            "most of its cells are units");
+    add_guesses_of_header(layout, guesses);
     if (!layout.comment_marks.empty())
       guess("Raw file/Comment marks",
             boost::algorithm::join(layout.comment_marks, ", "),

@@ -166,8 +166,9 @@ namespace SlipStep
       }
 
       // With what is known in place of {1}, {part} and so on.
-      std::string filled_text(const std::string                  &path,
-                              std::map<std::string, std::string> &values) const
+      std::string
+      filled_text(const std::string                        &path,
+                  const std::map<std::string, std::string> &values) const
       {
         return map.attempt(path,
                            [&] { return filled_in(map.text(path), values); });
@@ -177,8 +178,7 @@ namespace SlipStep
                                      const Dimension    dimension,
                                      const bool         is_positive)
       {
-        std::map<std::string, std::string> found = raw_file.found;
-        std::string                        text  = filled_text(path, found);
+        std::string text = filled_text(path, raw_file.found);
         if (text.empty())
           return {};
         const std::string mark = " assumed";
@@ -524,49 +524,57 @@ namespace SlipStep
             keep_rows(test, rows);
             if (!tests.empty())
               test.warnings.clear(); // they are of the whole record
-
-            std::map<std::string, std::string> values = raw_file.found;
-            std::string                        numbered, words;
-            if (cut != "none")
-              {
-                const std::string digits = std::to_string(number);
-                values["part"] =
-                  std::string(parts.size() > 9 && number < 10 ? "0" : "") +
-                  digits;
-                values["way"] =
-                  test.displacement.back() < test.displacement.front() ?
-                    "back" :
-                    "forth";
-                numbered = "_part_" + values["part"];
-                words    = ", part " + digits;
-                test.notes["part"] =
-                  digits + " of " + std::to_string(parts.size()) + " (cut " +
-                  cut + "), from " + rounded_text(test.time.front(), 7) +
-                  " s to " + rounded_text(test.time.back(), 7) +
-                  " s of the record";
-              }
-            const auto text = [&](const std::string &key) {
-              return filled_text("Test/" + key, values);
-            };
-            const auto is_numbered = [&](const std::string &key) {
-              return map.text("Test/" + key).find("{part}") !=
-                     std::string::npos;
-            };
-            const std::string file = plain_name(text("File"));
-            test.file              = (file.empty() ? name : file) +
-                        (is_numbered("File") ? "" : numbered) + ".csv";
-            const std::string title = text("Name");
-            test.name =
-              (title.empty() ? raw_file.file.stem().string() : title) +
-              (is_numbered("Name") ? "" : words);
-            test.condition = text("Condition");
-            for (const std::string key : {"Source", "Licence", "Remark"})
-              test.notes[lower_case(key)] = text(key);
+            if (cut == "none")
+              name_test(test, raw_file.found, "", "");
+            else
+              name_part(test, number, parts.size());
             start_from_zero(test);
             thin_out(test);
             tests.push_back(test);
           }
         return tests;
+      }
+
+      void name_part(MeasuredTest     &test,
+                     const std::size_t number,
+                     const std::size_t n_parts) const
+      {
+        std::map<std::string, std::string> values = raw_file.found;
+        const std::string                  digits = std::to_string(number);
+        values["part"] =
+          std::string(n_parts > 9 && number < 10 ? "0" : "") + digits;
+        values["way"] = test.displacement.back() < test.displacement.front() ?
+                          "back" :
+                          "forth";
+        test.notes["part"] = digits + " of " + std::to_string(n_parts) +
+                             " (cut " + map.text("Selection/Cut") + "), from " +
+                             rounded_text(test.time.front(), 7) + " s to " +
+                             rounded_text(test.time.back(), 7) +
+                             " s of the record";
+        name_test(test, values, "_part_" + values["part"], ", part " + digits);
+      }
+
+      // File and name get what tells the part, unless the map says where.
+      void name_test(MeasuredTest                             &test,
+                     const std::map<std::string, std::string> &values,
+                     const std::string                        &numbered,
+                     const std::string                        &words) const
+      {
+        const auto text = [&](const std::string &key) {
+          return filled_text("Test/" + key, values);
+        };
+        const auto is_numbered = [&](const std::string &key) {
+          return map.text("Test/" + key).find("{part}") != std::string::npos;
+        };
+        const std::string file = plain_name(text("File"));
+        test.file              = (file.empty() ? name : file) +
+                    (is_numbered("File") ? "" : numbered) + ".csv";
+        const std::string title = text("Name");
+        test.name = (title.empty() ? raw_file.file.stem().string() : title) +
+                    (is_numbered("Name") ? "" : words);
+        test.condition = text("Condition");
+        for (const std::string key : {"Source", "Licence", "Remark"})
+          test.notes[lower_case(key)] = text(key);
       }
 
       void start_from_zero(MeasuredTest &test) const

@@ -199,7 +199,8 @@ namespace SlipStep
   namespace
   {
     // Of sliding solids.
-    constexpr double largest_friction = 2.;
+    constexpr double largest_friction    = 2.;
+    constexpr double times_of_excursions = 3.; // usual values
 
 
 
@@ -409,19 +410,46 @@ namespace SlipStep
       // to the other side, or to three times what it is.
       void warn_of_excursions() const
       {
-        constexpr double times = 3., least_friction = 1e-3;
+        warn_of_excursions_of_friction();
+        tell_excursions("the displacement goes to ",
+                        " mm",
+                        test.displacement,
+                        excursions(test.displacement, 0.));
+        tell_excursions("the second displacement goes to ",
+                        " mm",
+                        test.displacement_y,
+                        excursions(test.displacement_y, 0.));
+        // From full load, and to it.
+        const double             load = 0.5 * median(test.pressure);
+        std::vector<double>      decades;
+        std::vector<std::size_t> rows;
+        for (const double pressure : test.pressure)
+          decades.push_back(std::log10(std::max(pressure, 1e-6 * load)));
+        for (const std::size_t row :
+             excursions(decades, std::log10(times_of_excursions)))
+          if (test.pressure[row - 1] >= load ||
+              (!rows.empty() && row == rows.back() + 1))
+            rows.push_back(row);
+        tell_excursions("the pressure goes to ", " MPa", test.pressure, rows);
+      }
 
-        const auto tell = [&](const std::string              &words,
-                              const std::string              &unit,
-                              const std::vector<double>      &values,
-                              const std::vector<std::size_t> &rows) {
-          if (!rows.empty())
-            warn(words + rounded_text(values[rows[0]], 4) + unit +
-                   " there and back at once: an error code, or a spike? Leave "
-                   "out rows that measure nothing. Such rows: " +
-                   std::to_string(rows.size()),
-                 rows[0]);
-        };
+      void tell_excursions(const std::string              &words,
+                           const std::string              &unit,
+                           const std::vector<double>      &values,
+                           const std::vector<std::size_t> &rows) const
+      {
+        if (!rows.empty())
+          warn(words + rounded_text(values[rows[0]], 4) + unit +
+                 " there and back at once: an error code, or a spike? Leave "
+                 "out rows that measure nothing. Such rows: " +
+                 std::to_string(rows.size()),
+               rows[0]);
+      }
+
+      void warn_of_excursions_of_friction() const
+      {
+        constexpr double least_friction = 1e-3;
+
         // An axis along which nothing moves has noise only.
         const double usual = usual_size(sizes_of_friction(test));
         for (const auto &[name, friction, x] :
@@ -447,31 +475,16 @@ namespace SlipStep
                 const double size  = std::abs(value);
                 // Beyond the largest friction it has been told already.
                 if (size <= largest_friction &&
-                    (size < least_friction * usual || size > times * usual ||
+                    (size < least_friction * usual ||
+                     size > times_of_excursions * usual ||
                      (value * (*friction)[row - 1] < 0. && !turns(row))))
                   rows.push_back(row);
               }
-            tell(std::string(name) + " goes to ", "", *friction, rows);
+            tell_excursions(std::string(name) + " goes to ",
+                            "",
+                            *friction,
+                            rows);
           }
-        tell("the displacement goes to ",
-             " mm",
-             test.displacement,
-             excursions(test.displacement, 0.));
-        tell("the second displacement goes to ",
-             " mm",
-             test.displacement_y,
-             excursions(test.displacement_y, 0.));
-        // From full load, and to it.
-        const double             load = 0.5 * median(test.pressure);
-        std::vector<double>      decades;
-        std::vector<std::size_t> rows;
-        for (const double pressure : test.pressure)
-          decades.push_back(std::log10(std::max(pressure, 1e-6 * load)));
-        for (const std::size_t row : excursions(decades, std::log10(times)))
-          if (test.pressure[row - 1] >= load ||
-              (!rows.empty() && row == rows.back() + 1))
-            rows.push_back(row);
-        tell("the pressure goes to ", " MPa", test.pressure, rows);
       }
 
       // Rows far from all others, under load.

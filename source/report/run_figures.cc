@@ -390,6 +390,30 @@ namespace SlipStep
 
 
 
+    // By colours of runs that share speeds, else as one.
+    void plot_simulated(const RunFigures               &figures,
+                        const std::vector<Rows>        &simulated,
+                        const bool                      is_by_run,
+                        const std::vector<std::string> &columns,
+                        Figure                         &figure)
+    {
+      const std::string dots = " with points pt 7 ps 0.8 ";
+      Rows              all;
+      for (std::size_t i = 0; i < simulated.size(); ++i)
+        if (!is_by_run)
+          all.insert(all.end(), simulated[i].begin(), simulated[i].end());
+        else if (!simulated[i].empty())
+          figure.plot(
+            figure.add_data(legend(figures.runs[i]), columns, simulated[i]) +
+            dots + run_colour(i) + " title " +
+            gnuplot_text(legend(figures.runs[i])));
+      if (!is_by_run)
+        figure.plot(figure.add_data("simulated", columns, all) + dots +
+                    "lc rgb '#0072B2' title 'simulated'");
+    }
+
+
+
     void add_speed_picture(RunFigures &figures)
     {
       const auto &reference = figures.reference;
@@ -434,19 +458,7 @@ namespace SlipStep
             " with points pt 6 ps 1.3 lw 1.8 lc rgb '#D55E00' title " +
             gnuplot_text(reference.name));
         }
-      const std::string dots = " with points pt 7 ps 0.8 ";
-      Rows              all;
-      for (std::size_t i = 0; i < simulated.size(); ++i)
-        if (!is_by_run)
-          all.insert(all.end(), simulated[i].begin(), simulated[i].end());
-        else if (!simulated[i].empty())
-          figure.plot(
-            figure.add_data(legend(figures.runs[i]), columns, simulated[i]) +
-            dots + run_colour(i) + " title " +
-            gnuplot_text(legend(figures.runs[i])));
-      if (!is_by_run)
-        figure.plot(figure.add_data("simulated", columns, all) + dots +
-                    "lc rgb '#0072B2' title 'simulated'");
+      plot_simulated(figures, simulated, is_by_run, columns, figure);
       figures.add(figure,
                   "Rate dependence",
                   marks.empty() ? "r at the end of each slide." :

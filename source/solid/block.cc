@@ -88,11 +88,11 @@ namespace SlipStep
             continue;
           }
 
-        const ContactTotals totals      = contact.totals(communicator);
-        const double        start       = control.time();
-        const double        step_size   = control.step_size();
-        const double        pushed_path = drive.pushed_path();
-        const StepError     error       = error_of_step(totals);
+        const ContactTotals totals     = contact.totals(communicator);
+        const double        start      = control.time();
+        const double        step_size  = control.step_size();
+        const double        start_path = path.at(start) + drive.pushed_path();
+        const StepError     error      = error_of_step(totals);
         if (control.would_accept(error.measure()) && adapt_to_trial(output))
           continue;
         const bool is_first = control.is_first_of_segment();
@@ -106,16 +106,9 @@ namespace SlipStep
                                                    totals.limit_load),
                                   start);
 
-        HistoryRow row;
-        row.time      = control.time();
-        row.step_size = step_size;
-        accept_step(totals, row);
-        if (is_marked)
-          tolerance.add(row.time, last_marked);
+        const HistoryRow row = accept_step(totals, step_size);
         observe(row);
         check_contact(totals);
-        old_step    = step_size;
-        mesh_is_new = false;
         if (output != nullptr)
           output->write_if_due(dof_handler,
                                solution,
@@ -124,7 +117,7 @@ namespace SlipStep
                                load_factors,
                                {start,
                                 row.time,
-                                path.at(start) + pushed_path,
+                                start_path,
                                 path.at(row.time) + drive.pushed_path(),
                                 control.n_accepted(),
                                 control.is_first_of_statement(),
@@ -577,8 +570,13 @@ namespace SlipStep
   // dissipated should equal it; the difference is an error of the time steps,
   // of second order.
   template <int dim>
-  void Block<dim>::accept_step(const ContactTotals &totals, HistoryRow &row)
+  HistoryRow Block<dim>::accept_step(const ContactTotals &totals,
+                                     const double         step_size)
   {
+    old_step    = step_size;
+    mesh_is_new = false;
+    if (is_marked)
+      tolerance.add(control.time(), last_marked);
     contact.commit();
     worn_depth_at_start = mean_worn_depth(totals);
     external_work += trial_work;
@@ -588,6 +586,9 @@ namespace SlipStep
     note_lean(totals);
     drive.accept(totals.normal_load / parameters.nominal_contact_area());
 
+    HistoryRow row;
+    row.time          = control.time();
+    row.step_size     = step_size;
     const double load = totals.normal_load;
     // What round-off leaves of a load that was taken off has no friction.
     constexpr double round_off = 1e-9;
@@ -620,5 +621,6 @@ namespace SlipStep
     old_solution   = solution;
     old_solution.update_ghost_values();
     old_loading = loading;
+    return row;
   }
 } // namespace SlipStep

@@ -582,6 +582,30 @@ namespace SlipStep
       for (unsigned int i = 0; i < sums.size(); ++i)
         *values[i] = sums[i];
     }
+
+
+
+    // Of a closed point. Means are to be divided by the load.
+    template <class QuadraturePoint>
+    void add_point(const QuadraturePoint &point,
+                   const FrictionLaw     &law,
+                   ContactTotals         &totals)
+    {
+      const ContactState &state = point.point.trial();
+      const double        load  = point.JxW * state.normal_traction;
+      totals.normal_load += load;
+      totals.tangential_load += point.JxW * state.traction;
+      totals.limit_load += point.JxW * state.strength;
+      totals.area += point.JxW;
+      totals.slip_area += point.slips ? point.JxW : 0.;
+      totals.stored +=
+        point.JxW * (state.normal_traction * state.normal_traction /
+                       (2. * law.normal_stiffness()) +
+                     law.stored_energy(state));
+      totals.slip += load * state.slip_path;
+      for (unsigned int i = 0; i < totals.memories.size(); ++i)
+        totals.memories[i] += load * state.memories[i];
+    }
   } // namespace
 
 
@@ -601,19 +625,8 @@ namespace SlipStep
           totals.dissipated += point.JxW * state.dissipation;
           if (state.normal_traction <= 0.)
             continue;
-          const double load = point.JxW * state.normal_traction;
-          totals.normal_load += load;
-          totals.tangential_load += point.JxW * state.traction;
-          totals.limit_load += point.JxW * state.strength;
-          totals.area += point.JxW;
-          totals.slip_area += point.slips ? point.JxW : 0.;
-          totals.stored +=
-            point.JxW * (state.normal_traction * state.normal_traction /
-                           (2. * law.normal_stiffness()) +
-                         law.stored_energy(state));
-          totals.slip += load * state.slip_path;
-          for (unsigned int i = 0; i < totals.memories.size(); ++i)
-            totals.memories[i] += load * state.memories[i];
+          add_point(point, law, totals);
+          const double                load = point.JxW * state.normal_traction;
           const std::array<double, 3> here = {
             {state.loading_ratio, state.normal_ratio, state.coefficient}};
           for (unsigned int i = 0; i < 3; ++i)

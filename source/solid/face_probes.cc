@@ -226,20 +226,19 @@ namespace SlipStep
 
 
 
+  // Pairs (distance from the rear end, loading ratio) of this rank. In 3-D
+  // those points of every cell on the centre line that lie next to it.
   template <int dim>
-  double FaceProbes<dim>::slip_front(const ContactFace<dim> &contact,
-                                     const double            loading_ratio,
-                                     const MPI_Comm         &communicator) const
+  std::vector<std::pair<double, double>>
+  FaceProbes<dim>::ratios_along_centre_line(
+    const ContactFace<dim> &contact) const
   {
     const unsigned int along = parameters.tangential_axis(sliding_axis);
     const unsigned int across =
       dim == 3 ? parameters.tangential_axis(1 - sliding_axis) : along;
     const double centre = parameters.size[across] / 2.;
 
-    // Pairs (distance from the rear end, loading ratio). In 3-D those points
-    // of every cell on the centre line that lie next to it.
-    using Sample = std::pair<double, double>;
-    std::vector<Sample> samples;
+    std::vector<std::pair<double, double>> samples;
     for (const auto &cell_face : contact.cell_faces())
       {
         double nearest = std::numeric_limits<double>::infinity();
@@ -264,11 +263,26 @@ namespace SlipStep
                                  state.loading_ratio);
           }
       }
+    return samples;
+  }
+
+
+
+  template <int dim>
+  double FaceProbes<dim>::slip_front(const ContactFace<dim> &contact,
+                                     const double            loading_ratio,
+                                     const MPI_Comm         &communicator) const
+  {
+    using Sample = std::pair<double, double>;
     std::vector<Sample> all;
-    for (const auto &part : Utilities::MPI::all_gather(communicator, samples))
+    for (const auto &part :
+         Utilities::MPI::all_gather(communicator,
+                                    ratios_along_centre_line(contact)))
       all.insert(all.end(), part.begin(), part.end());
     std::sort(all.begin(), all.end());
 
+    const double length =
+      parameters.size[parameters.tangential_axis(sliding_axis)];
     // Points of the two cells beside the line, at the same place, count as one.
     std::vector<Sample> profile;
     for (std::size_t i = 0; i < all.size();)
@@ -276,7 +290,7 @@ namespace SlipStep
         std::size_t n   = 0;
         double      sum = 0.;
         for (; i + n < all.size() &&
-               all[i + n].first - all[i].first < 1e-9 * parameters.size[along];
+               all[i + n].first - all[i].first < 1e-9 * length;
              ++n)
           sum += all[i + n].second;
         profile.emplace_back(all[i].first, sum / n);
@@ -290,7 +304,7 @@ namespace SlipStep
         if ((before < 0.) == (after < 0.))
           continue;
         const double distance = crossing(profile, i, loading_ratio);
-        return slides_backward ? parameters.size[along] - distance : distance;
+        return slides_backward ? length - distance : distance;
       }
     return QuantityOfInterest::undefined;
   }

@@ -138,6 +138,21 @@ namespace SlipStep
 
 
   template <int dim>
+  std::string MeshMarker<dim>::words_of_limit(const double n_wanted,
+                                              const double most) const
+  {
+    return "the mesh would need " + short_text(n_wanted, 6) + " cells, but " +
+           (most < refinement.most_cells ?
+              "'Most memory' in section Block/Adaptivity (or the machine's) "
+              "allows " :
+              "'Most cells' in section Block/Adaptivity allows ") +
+           short_text(std::floor(most), 6) +
+           ": raise it, raise 'Tolerance', or 'set Beyond the limit = warn'";
+  }
+
+
+
+  template <int dim>
   MarkedCells MeshMarker<dim>::mark(
     parallel::distributed::Triangulation<dim> &triangulation,
     const std::vector<double>                 &squared_errors,
@@ -193,15 +208,7 @@ namespace SlipStep
       return result;
     result.n_too_many = n_wanted - most;
     if (refinement.stop_at_cap)
-      throw RunError("the mesh would need " + short_text(n_wanted, 6) +
-                     " cells, but " +
-                     (most < refinement.most_cells ?
-                        "'Most memory' in section Block/Adaptivity (or the "
-                        "machine's) allows " :
-                        "'Most cells' in section Block/Adaptivity allows ") +
-                     short_text(std::floor(most), 6) +
-                     ": raise it, raise 'Tolerance', or 'set Beyond the limit "
-                     "= warn'");
+      throw RunError(words_of_limit(n_wanted, most));
 
     // The largest errors that fit.
     double lower = limit, upper = largest;

@@ -186,6 +186,36 @@ namespace SlipStep
     {
       return boost::algorithm::join(unit_names(dimension), ", ");
     }
+
+
+    // What people write, and the unit that it means. Without an exact match
+    // case does not matter.
+    const std::vector<std::pair<std::string, std::string>> &words_for_units()
+    {
+      static const std::vector<std::pair<std::string, std::string>> words = {
+        {"sec", "s"},         {"secs", "s"},
+        {"second", "s"},      {"seconds", "s"},
+        {"msec", "ms"},       {"minutes", "min"},
+        {"hours", "h"},       {"micron", "um"},
+        {"microns", "um"},    {"micrometer", "um"},
+        {"in", "inch"},       {"inches", "inch"},
+        {"in2", "in^2"},      {"newton", "N"},
+        {"N/mm2", "N/mm^2"},  {"mm2", "mm^2"},
+        {"celsius", "degC"},  {"deg c", "degC"},
+        {"deg. c", "degC"},   {"hr", "h"},
+        {"hrs", "h"},         {"hour", "h"},
+        {"day", "d"},         {"days", "d"},
+        {"\"", "inch"},       {"kips", "kip"},
+        {"kp", "kgf"},        {"KN", "kN"},
+        {"cm2", "cm^2"},      {"m2", "m^2"},
+        {"MM", "mm"},         {"UM", "um"},
+        {"MPA", "MPa"},       {"KPA", "kPa"},
+        {"GPA", "GPa"},       {"BAR", "bar"},
+        {"PSI", "psi"},       {"MM/S", "mm/s"},
+        {"MM/MIN", "mm/min"}, {"kgf/cm2", "kgf/cm^2"},
+        {"deg f", "degF"}};
+      return words;
+    }
   } // namespace
 
 
@@ -204,50 +234,7 @@ namespace SlipStep
       for (std::size_t at = unit.find(written); at != std::string::npos;
            at             = unit.find(written))
         unit.replace(at, written.size(), plain);
-    const std::vector<std::pair<std::string, std::string>> words = {
-      {"sec", "s"},
-      {"secs", "s"},
-      {"second", "s"},
-      {"seconds", "s"},
-      {"msec", "ms"},
-      {"minutes", "min"},
-      {"hours", "h"},
-      {"micron", "um"},
-      {"microns", "um"},
-      {"micrometer", "um"},
-      {"in", "inch"},
-      {"inches", "inch"},
-      {"in2", "in^2"},
-      {"newton", "N"},
-      {"N/mm2", "N/mm^2"},
-      {"mm2", "mm^2"},
-      {"celsius", "degC"},
-      {"deg c", "degC"},
-      {"deg. c", "degC"},
-      {"hr", "h"},
-      {"hrs", "h"},
-      {"hour", "h"},
-      {"day", "d"},
-      {"days", "d"},
-      {"\"", "inch"},
-      {"kips", "kip"},
-      {"kp", "kgf"},
-      {"kp", "kgf"},
-      {"KN", "kN"},
-      {"cm2", "cm^2"},
-      {"m2", "m^2"},
-      {"MM", "mm"},
-      {"UM", "um"},
-      {"MPA", "MPa"},
-      {"KPA", "kPa"},
-      {"GPA", "GPa"},
-      {"BAR", "bar"},
-      {"PSI", "psi"},
-      {"MM/S", "mm/s"},
-      {"MM/MIN", "mm/min"},
-      {"kgf/cm2", "kgf/cm^2"},
-      {"deg f", "degF"}};
-    for (const auto &[written, plain] : words)
+    for (const auto &[written, plain] : words_for_units())
       if (unit == written || lower_case(unit) == written)
         return plain;
     return unit;

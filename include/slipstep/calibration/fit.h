@@ -39,6 +39,14 @@ namespace SlipStep
   /// All parameters, to be passed to fit().
   std::vector<unsigned int> all_parameters(const Campaign &campaign);
 
+  /// Fit all parameters, and once more without the error of the time steps: the
+  /// misfits from several starts can be compared. What could not be simulated
+  /// is told in the message.
+  FitResult fit_exactly(Simulator                 &simulator,
+                        const Campaign            &campaign,
+                        const std::vector<double> &scaled_start,
+                        const std::chrono::steady_clock::time_point deadline);
+
   /// The start of the case, then points spread between the bounds (a Sobol
   /// sequence); of those that the law refuses others are taken instead.
   std::vector<std::vector<double>> spread_starts(const Campaign    &campaign,

@@ -325,6 +325,8 @@ namespace SlipStep
 
     Rate coefficient_rate_per_slip(const double coefficient) const;
     Rate coefficient_rate_per_time(const double coefficient) const;
+    void create_effects(const Parameters &parameters, const bool flow_rule);
+
     std::array<double, 2> find_coefficient_range() const;
 
     const double     alpha_n;

@@ -181,31 +181,31 @@ namespace SlipStep
     bool        find_equilibrium_at_start();
 
     // One time step.
-    bool      make_step();
-    void      begin_stage(const double end_time, const double time_step);
-    bool      finish_stage(const double weight);
-    void      predict();
-    bool      is_put_down() const;
-    bool      bring_to_touch();
-    bool      settle();
-    void      add_loads(const double factor, Vector &vector) const;
-    void      impose_displacements();
-    bool      solve_stage();
-    double    compute_residual();
-    double    least_force_scale() const;
-    double    newton_tolerance() const;
-    double    wanted_norm() const;
-    void      forget_iterations();
-    bool      only_round_off_is_left() const;
-    double    linear_tolerance(const double norm) const;
-    double    share_of_uphill_update();
-    double    line_search(const Vector               &update,
-                          const dealii::Tensor<1, 2> &motion,
-                          const double                old_norm);
-    StepError error_of_step(const ContactTotals &totals);
-    double    error_of_wear(const ContactTotals &totals) const;
-    bool      wears_at_held_approach() const;
-    void      accept_step(const ContactTotals &totals, HistoryRow &row);
+    bool       make_step();
+    void       begin_stage(const double end_time, const double time_step);
+    bool       finish_stage(const double weight);
+    void       predict();
+    bool       is_put_down() const;
+    bool       bring_to_touch();
+    bool       settle();
+    void       add_loads(const double factor, Vector &vector) const;
+    void       impose_displacements();
+    bool       solve_stage();
+    double     compute_residual();
+    double     least_force_scale() const;
+    double     newton_tolerance() const;
+    double     wanted_norm() const;
+    void       forget_iterations();
+    bool       only_round_off_is_left() const;
+    double     linear_tolerance(const double norm) const;
+    double     share_of_uphill_update();
+    double     line_search(const Vector               &update,
+                           const dealii::Tensor<1, 2> &motion,
+                           const double                old_norm);
+    StepError  error_of_step(const ContactTotals &totals);
+    double     error_of_wear(const ContactTotals &totals) const;
+    bool       wears_at_held_approach() const;
+    HistoryRow accept_step(const ContactTotals &totals, const double step_size);
 
     // Inertia of the body.
     const Vector          &strained_displacement();

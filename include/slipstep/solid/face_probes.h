@@ -51,6 +51,9 @@ namespace SlipStep
                       const double            loading_ratio,
                       const MPI_Comm         &communicator) const;
 
+    std::vector<std::pair<double, double>>
+    ratios_along_centre_line(const ContactFace<dim> &contact) const;
+
     const BlockParameters parameters;
     /// Of the contact plane, 0 or 1: along which the block slides first.
     unsigned int sliding_axis    = 0;

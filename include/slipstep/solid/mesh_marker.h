@@ -63,6 +63,8 @@ namespace SlipStep
   private:
     double most_cells(const double n_cells, const double n_unknowns) const;
 
+    std::string words_of_limit(const double n_wanted, const double most) const;
+
     const BlockParameters       parameters;
     const RefinementParameters &refinement;
     const GoalWeight<dim>       goal;
