@@ -34,7 +34,7 @@ namespace SlipStep
       const Eigen::VectorXd &x          = covariates.*covariate.values;
       Eigen::VectorXd        share      = Eigen::VectorXd::Zero(x.size());
       double                 mean       = 0.;
-      Eigen::Index           n = 0, top = 0;
+      Eigen::Index           n = 0, top = -1;
       for (Eigen::Index i = 0; i < x.size(); ++i)
         if (std::abs(covariates.friction(i)) >
               least_friction * workspace.range.typical_friction &&
@@ -43,10 +43,11 @@ namespace SlipStep
             share(i) = correction(i) / covariates.friction(i);
             mean += share(i);
             ++n;
-            top = i;
+            if (share(i) != 0.)
+              top = i;
           }
       Rows inside(x.size(), true);
-      if (n == 0)
+      if (top < 0)
         return inside;
       mean /= n;
       // What is the same everywhere is in the coefficients.
@@ -183,13 +184,13 @@ namespace SlipStep
     const auto   begin     = sizes.find(top);
     const double least     = 0.5 * begin->second;
     const auto   is_inside = [least](const auto &entry) {
-      return entry.second > least;
+      return entry.second >= least;
     };
-    const auto last = std::find_if_not(begin, sizes.end(), is_inside);
-    const auto first =
-      std::find_if_not(std::make_reverse_iterator(std::next(begin)),
-                       sizes.rend(),
-                       is_inside);
+    const auto last =
+      std::find_if_not(std::next(begin), sizes.end(), is_inside);
+    const auto first = std::find_if_not(std::make_reverse_iterator(begin),
+                                        sizes.rend(),
+                                        is_inside);
     return {first.base()->first, std::prev(last)->first};
   }
 

@@ -19,4 +19,7 @@ TEST(Localisation, ARangeHasNoGap)
   EXPECT_EQ(range_around({{7., 0.1}}, 7.), std::make_pair(7., 7.));
   EXPECT_EQ(range_around({{0., 1.}, {1., 0.9}, {2., 0.8}}, 0.),
             std::make_pair(0., 2.));
+  // Nowhere larger than elsewhere.
+  EXPECT_EQ(range_around({{1., 0.}, {2., 0.}, {3., 0.}}, 2.),
+            std::make_pair(1., 3.));
 }

@@ -12,8 +12,8 @@
 
 namespace SlipStep
 {
-  /// From where to where sizes are more than half of the one at @p top, which
-  /// is positive, without a gap.
+  /// From where to where sizes are at least half of the one at @p top, which is
+  /// not negative, without a gap.
   /// @param sizes by the value of a covariate, @p top among them
   std::pair<double, double> range_around(const std::map<double, double> &sizes,
                                          const double                    top);
